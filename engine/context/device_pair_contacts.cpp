@@ -61,9 +61,11 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<ContactQuery>&
         contacts_.count = found_contacts_.count();
     }
     contacts_.intersects = do_intersect(data);
-    contacts_.error_bound = plan::pair_budget(query_, {instances_[data.a].polygon->deviation(),
-                                                       instances_[data.b].polygon->deviation()})
-                                .bound;
+    const auto deviation_of = [this](std::uint32_t instance) {
+        return polygon_of(instances_[instance].instance.shape)->deviation();
+    };
+    contacts_.error_bound =
+        plan::pair_budget(query_, {deviation_of(data.a), deviation_of(data.b)}).bound;
     fill(row, data, contacts_);
 }
 

@@ -44,7 +44,8 @@ double median(std::vector<Vector2>& places, double Vector2::*coordinate) {
 }  // namespace
 
 /// Lists the instances whose shapes exist in the order in which they were added.
-void DevicePairTableBase::State::list_instances(const world::Instances& instances) {
+void DevicePairTableBase::State::list_instances(const char* call,
+                                                const world::Instances& instances) {
     indices_.clear();
     for (std::uint32_t index = 0; index < instances.size(); ++index) {
         if (instances.is_present(index) &&
@@ -54,7 +55,8 @@ void DevicePairTableBase::State::list_instances(const world::Instances& instance
     }
     if (indices_.size() > plan::max_instances) {
         throw StatusException(
-            {StatusCode::too_large, "update: the world has " + std::to_string(indices_.size()) +
+            {StatusCode::too_large, std::string(call) + ": the world has " +
+                                        std::to_string(indices_.size()) +
                                         " instances, of which the device takes at most " +
                                         std::to_string(plan::max_instances)});
     }
@@ -67,33 +69,31 @@ void DevicePairTableBase::State::list_instances(const world::Instances& instance
 /// Writes instances whose poses may have changed.
 void DevicePairTableBase::State::place(const world::Instances& instances,
                                        std::span<const std::uint32_t> numbers) {
-    const bool has_tolerance = question_.tolerance > 0.0;
     std::array<double, angles_at_once> angles{};
     std::array<SineCosine, angles_at_once> turns;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        PairInstance& entry = instances_[numbers[i]];
-        const std::uint32_t index = indices_[numbers[i]];
-        entry.instance.pose = instances[index].pose;
-        entry.moves = instances.moves(index);
-        entry.data.category = instances[index].category;
-        entry.data.mask = instances[index].mask;
-        angles[i] = entry.instance.pose.angle;
+        angles[i] = instances[indices_[numbers[i]]].pose.angle;
     }
     geometry::kernels::find_sines_cosines(std::span(angles).first(numbers.size()), turns);
+    const bool has_tolerance = question_.tolerance > 0.0;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::uint32_t index = indices_[numbers[i]];
+        const WorldInstance& instance = instances[index];
         PairInstance& entry = instances_[numbers[i]];
-        const Pose& pose = entry.instance.pose;
-        const TransformedPolygon placed(*entry.polygon, pose, turns[i]);
-        plan::set_place(placed, origin_, entry.data);
-        const double magnitude =
-            std::max({placed.translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
-                      entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
-                      std::abs(pose.translation.y)});
+        entry.instance.pose = instance.pose;
+        entry.moves = instances.moves(index);
+        const PairShape& shape = pair_shapes_[entry.instance.shape.index];
+        plan::SearchInstanceData data = shape.data;
+        data.category = instance.category;
+        data.mask = instance.mask;
+        const auto [place, magnitude] =
+            plan::set_place(*shape.polygon, instance.pose, turns[i], origin_, data);
+        entry.place = place;
+        data.rounding = has_tolerance ? 0.0F : plan::rounding_at(magnitude);
         const bool is_resolved =
-            has_tolerance ? plan::check_resolution(question_.tolerance, magnitude).ok() : true;
-        entry.data.rounding = has_tolerance ? 0.0F : plan::rounding_at(magnitude);
-        entry.data.left_to_cpu = entry.is_left_to_cpu || !is_resolved ? 1 : 0;
-        buffers_->set_instance(numbers[i], entry.data);
+            !has_tolerance || question_.tolerance >= plan::smallest_tolerance(magnitude);
+        data.left_to_cpu |= is_resolved ? 0U : 1U;
+        buffers_->set_instance(numbers[i], data);
     }
 }
 
@@ -132,26 +132,41 @@ bool DevicePairTableBase::State::is_for_cpu(const geometry::Polygon& polygon) co
                 .ok();
 }
 
+/// What all instances of a shape have alike.
+void DevicePairTableBase::State::place_shape(ShapeHandle handle) {
+    if (handle.index >= pair_shapes_.size()) {
+        pair_shapes_.resize(handle.index + std::size_t{1});
+    }
+    PairShape& shape = pair_shapes_[handle.index];
+    if (shape.polygon != nullptr) {
+        return;
+    }
+    const geometry::Polygon& polygon = *context_->shapes().hold(handle, held_);
+    const bool is_left_to_cpu = is_for_cpu(polygon);
+    shape.data = plan::data_of_shape(polygon);
+    shape.data.left_to_cpu = is_left_to_cpu ? 1 : 0;
+    shape.data.shape = shapes_.place(polygon);
+    shape.data.parts = question_.samples && !is_left_to_cpu
+                           ? shapes_.place_parts(polygon, question_.cell)
+                           : plan::no_parts;
+    shape.polygon = &polygon;
+}
+
 void DevicePairTableBase::State::place_all(const world::Instances& instances) {
     const double cell = question_.cell;
     context_->shapes().release(held_);
+    pair_shapes_.clear();
     shapes_.begin_batch();
     places_.clear();
     for (std::uint32_t number = 0; number < instances_.size(); ++number) {
         checkpoint();
         PairInstance& entry = instances_[number];
         const WorldInstance& instance = instances[indices_[number]];
+        place_shape(instance.shape);
         entry.handle = instances.handle(indices_[number]);
         entry.instance.shape = instance.shape;
-        entry.polygon = context_->shapes().hold(instance.shape, held_);
-        entry.is_left_to_cpu = is_for_cpu(*entry.polygon);
-        entry.data.shape = shapes_.place(*entry.polygon);
-        entry.data.parts = question_.samples && !entry.is_left_to_cpu
-                               ? shapes_.place_parts(*entry.polygon, cell)
-                               : plan::no_parts;
-        plan::set_shape(*entry.polygon, entry.data);
-        places_.push_back(
-            geometry::to_public(TransformedPolygon(*entry.polygon, instance.pose).translation()));
+        places_.push_back(geometry::to_public(
+            TransformedPolygon(*polygon_of(instance.shape), instance.pose).translation()));
     }
     origin_ = {median(places_, &Vector2::x), median(places_, &Vector2::y)};
     place_moved(instances);
@@ -175,9 +190,8 @@ void DevicePairTableBase::State::order_instances(const world::Instances& instanc
     places_.clear();
     double radii = 0.0;
     for (const PairInstance& entry : instances_) {
-        places_.push_back(
-            {static_cast<double>(entry.data.high.x), static_cast<double>(entry.data.high.y)});
-        radii += static_cast<double>(entry.data.radius);
+        places_.push_back(geometry::to_public(entry.place));
+        radii += polygon_of(entry.instance.shape)->radius();
     }
     buffers_->set_order(hilbert_order_.sort(
         places_.size(), [this](std::size_t i) -> const Vector2& { return places_[i]; }));

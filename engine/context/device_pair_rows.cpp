@@ -78,12 +78,14 @@ DevicePairTableBase::State::State(const AnyQuery& query, double reach)
 
 DevicePairTableBase::State::~State() {
     if (context_ != nullptr) {
+        set_submitted(false);
         context_->shapes().release(held_);
     }
 }
 
 std::uint32_t DevicePairTableBase::State::candidates() const {
-    return buffers_ == nullptr || instances_.size() < 2 ? 0 : buffers_->counts()[plan::pair_total];
+    const bool has_searched = buffers_ != nullptr && instances_.size() > 1 && !is_submitted_;
+    return has_searched ? buffers_->counts()[plan::pair_total] : 0;
 }
 
 std::uint32_t DevicePairTableBase::State::device_row(const char* call, std::uint32_t index) const {
@@ -123,13 +125,9 @@ AnyQuery DevicePairTableBase::State::query_on_cpu(const plan::PairRowData& data,
 
 const AnyResult& DevicePairTableBase::State::answer_on_cpu(const plan::PairRowData& data,
                                                            bool with_records) {
-    const PairInstance& a = instances_[data.a];
-    const PairInstance& b = instances_[data.b];
     cpu_queries_.assign(1, query_on_cpu(data, with_records));
     context_->ring().answer(
-        cpu_queries_,
-        [&](ShapeHandle shape) { return shape == a.instance.shape ? a.polygon : b.polygon; },
-        cpu_results_);
+        cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, cpu_results_);
     return cpu_results_.results.front();
 }
 
@@ -147,17 +145,18 @@ void DevicePairTableBase::State::begin(const plan::PairRowData& data) {
     words_.clear();
     plan::PlannedQuery& planned = plan_.queries.front();
     planned.query = &query_;
-    planned.a = a.polygon;
-    planned.b = b.polygon;
+    planned.a = polygon_of(a.instance.shape);
+    planned.b = polygon_of(b.instance.shape);
     planned.pose_a = a.instance.pose;
     planned.pose_b = b.instance.pose;
-    planned.deviations = {a.polygon->deviation(), b.polygon->deviation()};
+    planned.deviations = {planned.a->deviation(), planned.b->deviation()};
     planned.budget = plan::pair_budget(query_, planned.deviations);
     planned.technique = Technique::compute;
     auto& points = planned.work.emplace<plan::PlannedPoints>();
     points.source = plan::PointSource::device;
     points.outside = question_.reach > 0.0;
-    points.margin = plan::margin_of_pair(a.data, b.data);
+    points.margin =
+        plan::margin_of_pair(a.place, planned.a->radius(), b.place, planned.b->radius());
 }
 
 void DevicePairTableBase::State::add_point(const plan::FoundPointData& found,
@@ -210,9 +209,10 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<IntersectionTe
     result.intersects = true;
     for (const std::uint32_t instance : {data.a, data.b}) {
         const PairInstance& entry = instances_[instance];
-        const geometry::TransformedPolygon placed(*entry.polygon, entry.instance.pose);
+        const geometry::Polygon& polygon = *polygon_of(entry.instance.shape);
+        const geometry::TransformedPolygon placed(polygon, entry.instance.pose);
         result.error_bound +=
-            localize::placement_rounding(placed, placed.box()) + entry.polygon->deviation();
+            localize::placement_rounding(placed, placed.box()) + polygon.deviation();
     }
     fill(row, data, result);
 }

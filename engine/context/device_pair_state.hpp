@@ -30,9 +30,15 @@ struct DevicePairTableBase::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    /// Brings the rows up to date with a world. `identity`: of the world.
+    /// Bring the rows up to date with a world, at once or in two halves. `identity`: of the world.
     void update(Context::Implementation& with, const std::shared_ptr<const void>& identity,
                 const world::Instances& instances);
+    void submit(Context::Implementation& with, const std::shared_ptr<const void>& identity,
+                const world::Instances& instances);
+    void collect();
+    [[nodiscard]] bool is_ready() const {
+        return is_submitted_ && (buffers_ == nullptr || buffers_->is_done());
+    }
     void row(std::uint32_t index, PairRow<PenetrationQuery>& row);
     void row(std::uint32_t index, PairRow<ContactQuery>& row);
     void row(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
@@ -42,7 +48,6 @@ struct DevicePairTableBase::State {
     void records(std::uint32_t index, std::vector<ContactRecord>& records);
     void records(std::uint32_t index, std::vector<NoRecord>& records) const;
     void manifold(std::uint32_t index, std::vector<ContactCluster>& manifold);
-    void start_anew();
 
     std::uint32_t rows = 0;
     Timings timings;
@@ -58,10 +63,13 @@ private:
     struct PairInstance {
         Instance instance;
         InstanceHandle handle;
-        const geometry::Polygon* polygon = nullptr;  // held
-        bool is_left_to_cpu = false;                 // wherever it is
-        std::uint64_t moves = not_placed;            // see world::Instances
-        plan::SearchInstanceData data;
+        std::uint64_t moves = not_placed;  // see world::Instances
+        geometry::Vector place;            // of its shape's centre, relative to the origin
+    };
+    /// A shape of instances. Its polygon is held; null: it has none.
+    struct PairShape {
+        const geometry::Polygon* polygon = nullptr;
+        plan::SearchInstanceData data;  // what all its instances have alike
     };
     /// A row that the CPU decided. Its answer is the result with the same index.
     struct Decided {
@@ -69,14 +77,24 @@ private:
         bool has_row = false;   // in the table
     };
 
-    void check() const;
-    void list_instances(const world::Instances& instances);
+    void start_anew();
+    void set_submitted(bool is_submitted);
+    /// Throws what the action throws, after which the table is empty.
+    template <class Action>
+    void run_or_start_anew(Context::Implementation& context, const Action& action);
+    void require_collected(const char* call) const;
+    /// Lets the device begin. `call`: for messages.
+    void start(const char* call, Context::Implementation& with,
+               const std::shared_ptr<const void>& identity, const world::Instances& instances);
+    void finish();
+    void check(const char* call) const;
+    void list_instances(const char* call, const world::Instances& instances);
     void place(const world::Instances& instances, std::span<const std::uint32_t> numbers);
     void place_moved(const world::Instances& instances);
+    void place_shape(ShapeHandle shape);
     [[nodiscard]] bool is_for_cpu(const geometry::Polygon& polygon) const;
     void place_all(const world::Instances& instances);
     void order_instances(const world::Instances& instances);
-    void search();
     [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
     [[nodiscard]] bool is_hit(const AnyResult& answer, const plan::PairRowData& data) const;
     void decide();
@@ -85,6 +103,9 @@ private:
     /// What the CPU answered; null if the device decided.
     [[nodiscard]] const AnyResult* find_decided(std::uint32_t row) const;
     [[nodiscard]] AnyQuery query_on_cpu(const plan::PairRowData& data, bool with_records) const;
+    [[nodiscard]] const geometry::Polygon* polygon_of(ShapeHandle shape) const {
+        return pair_shapes_[shape.index].polygon;
+    }
     [[nodiscard]] const AnyResult& answer_on_cpu(const plan::PairRowData& data, bool with_records);
     template <class Query>
     void row_of_cpu(std::uint32_t index, PairRow<Query>& row) {
@@ -124,6 +145,7 @@ private:
     batch::ShapeStore::Held held_;
     std::vector<PairInstance> instances_;  // in the order in which they were added
     std::vector<std::uint32_t> indices_;   // of these in the world
+    std::vector<PairShape> pair_shapes_;   // by the index of a shape's handle
     std::uint64_t membership_ = 0;         // of the world, at the last update
     std::uint64_t shapes_revision_ = 0;
     world::HilbertOrder hilbert_order_;
@@ -142,6 +164,7 @@ private:
     simd::TransformedInstances edges_;
     std::uint32_t renderer_ = 0;          // number of that of the last update
     std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
+    bool is_submitted_ = false;           // and not collected
 };
 
 }  // namespace nearfield

@@ -16,11 +16,11 @@
 
 namespace nearfield {
 
-void DevicePairTableBase::State::check() const {
+void DevicePairTableBase::State::check(const char* call) const {
     if (question_.goal == plan::PairGoal::tests &&
         !(question_.reach >= 0.0 && question_.reach <= largest_coordinate)) {
-        refuse("update", "the reach is " + geometry::number(question_.reach) +
-                             "; it must be a finite number of at least 0");
+        refuse(call, "the reach is " + geometry::number(question_.reach) +
+                         "; it must be a finite number of at least 0");
     }
     const DeviceTechniques& techniques = context_->techniques();
     const plan::AvailableTechniques available{.device = context_->device() != nullptr,
@@ -34,13 +34,13 @@ void DevicePairTableBase::State::check() const {
                 is_asked = is_asked && !asked.resident;
             }
             if (!is_asked) {
-                refuse("update",
+                refuse(call,
                        "the device finds these pairs by Technique::compute; the table's query "
                        "asks for another technique, or for resident results");
             }
             if constexpr (requires { asked.normals; }) {
                 if (asked.normals == ContactNormals::gradient) {
-                    refuse("update", "the contacts of these pairs have analytic normals");
+                    refuse(call, "the contacts of these pairs have analytic normals");
                 }
             }
             asked.technique = Technique::compute;
@@ -54,12 +54,22 @@ void DevicePairTableBase::State::check() const {
         },
         query_);
     if (!status.ok()) {
-        throw StatusException({status.code(), "update: " + status.message()});
+        throw StatusException({status.code(), std::string(call) + ": " + status.message()});
     }
+}
+
+void DevicePairTableBase::State::set_submitted(bool is_submitted) {
+    if (is_submitted && !is_submitted_) {
+        ++context_->tables_in_flight;
+    } else if (!is_submitted && is_submitted_) {
+        --context_->tables_in_flight;
+    }
+    is_submitted_ = is_submitted;
 }
 
 void DevicePairTableBase::State::start_anew() {
     rows = 0;
+    set_submitted(false);
     decided_.clear();
     device_rows_.clear();
     instances_.clear();
@@ -72,19 +82,13 @@ void DevicePairTableBase::State::start_anew() {
     }
 }
 
-void DevicePairTableBase::State::search() {
-    render::Renderer& renderer = *context_->renderer();
-    buffers_->search(renderer.pair_search(question_.goal), shapes_, context_->memory_limit(),
-                     timings);
-    rows = buffers_->counts()[plan::row_total];
-}
-
 /// Whether the pair is one that a PairTable asks about: those in whose boxes only rounding leaves a
 /// gap are not, but the device does not tell them apart.
 bool DevicePairTableBase::State::boxes_meet(const plan::PairRowData& data) const {
     const auto box_of = [this](std::uint32_t number) {
         const PairInstance& entry = instances_[number];
-        return geometry::TransformedPolygon(*entry.polygon, entry.instance.pose).box();
+        return geometry::TransformedPolygon(*polygon_of(entry.instance.shape), entry.instance.pose)
+            .box();
     };
     // In the same order for both rows of a pair: the sums are rounded.
     return localize::boxes_meet(box_of(std::min(data.a, data.b)), box_of(std::max(data.a, data.b)),
@@ -121,8 +125,7 @@ void DevicePairTableBase::State::decide() {
         cpu_queries_.emplace_back(query_on_cpu(buffers_->rows()[i], false));
     }
     context_->ring().answer(
-        cpu_queries_, [this](ShapeHandle shape) { return context_->shapes().find(shape); },
-        decided_results_);
+        cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, decided_results_);
     checkpoint();  // what was cut must not look whole
     for (std::size_t i = 0; i < undecided.size(); ++i) {
         const plan::PairRowData& data = buffers_->rows()[undecided[i]];
@@ -143,16 +146,16 @@ void DevicePairTableBase::State::decide() {
     timings.decode = start.milliseconds();
 }
 
-void DevicePairTableBase::State::update(Context::Implementation& with,
-                                        const std::shared_ptr<const void>& identity,
-                                        const world::Instances& instances) {
+void DevicePairTableBase::State::start(const char* call, Context::Implementation& with,
+                                       const std::shared_ptr<const void>& identity,
+                                       const world::Instances& instances) {
     const Stopwatch total;
     if (context_ != &with || world_.lock() != identity) {
         start_anew();
         context_ = &with;
         world_ = identity;
     }
-    check();
+    check(call);
     rows = 0;
     decided_.clear();
     device_rows_.clear();
@@ -171,7 +174,7 @@ void DevicePairTableBase::State::update(Context::Implementation& with,
         place_moved(instances);
     } else if (!is_same) {
         membership_ = 0;
-        list_instances(instances);
+        list_instances(call, instances);
         if (instances_.size() > 1) {
             buffers_->reserve_instances(static_cast<std::uint32_t>(instances_.size()));
             place_all(instances);
@@ -182,40 +185,88 @@ void DevicePairTableBase::State::update(Context::Implementation& with,
     if (instances_.size() > 1) {
         order_instances(instances);
         timings.plan = total.milliseconds();
-        search();
-        decide();
+        buffers_->begin(context_->renderer()->pair_search(question_.goal), shapes_,
+                        context_->memory_limit(), timings);
     }
+    set_submitted(true);
     timings.total = total.milliseconds();
 }
 
-void World::Implementation::update(DevicePairTableBase& table) {
-    DevicePairTableBase::State& state = *table.state_;
-    const Status status =
-        context_->unless_lost([&] { state.update(*context_, identity_, instances_); });
+void DevicePairTableBase::State::finish() {
+    const Stopwatch total;
+    if (instances_.size() > 1) {
+        buffers_->finish(timings);
+        rows = buffers_->counts()[plan::row_total];
+        decide();
+    }
+    set_submitted(false);
+    timings.total += total.milliseconds();
+}
+
+template <class Action>
+void DevicePairTableBase::State::run_or_start_anew(Context::Implementation& context,
+                                                   const Action& action) {
+    const Status status = context.unless_lost(action);
     if (!status.ok()) {
-        state.start_anew();
+        start_anew();
         throw StatusException(status);
     }
 }
 
-Status World::update(DevicePairTable<PenetrationQuery>& table, const Limits& limits) {
+void DevicePairTableBase::State::require_collected(const char* call) const {
+    if (is_submitted_) {
+        throw StatusException(
+            {StatusCode::not_ready,
+             std::string(call) + ": the table was submitted, and has not been collected since"});
+    }
+}
+
+void DevicePairTableBase::State::update(Context::Implementation& with,
+                                        const std::shared_ptr<const void>& identity,
+                                        const world::Instances& instances) {
+    require_collected("update");
+    run_or_start_anew(with, [&] {
+        start("update", with, identity, instances);
+        finish();
+    });
+}
+
+void DevicePairTableBase::State::submit(Context::Implementation& with,
+                                        const std::shared_ptr<const void>& identity,
+                                        const world::Instances& instances) {
+    require_collected("submit");
+    run_or_start_anew(with, [&] { start("submit", with, identity, instances); });
+}
+
+void DevicePairTableBase::State::collect() {
+    if (!is_submitted_) {
+        throw StatusException({StatusCode::not_ready, "collect: the table was not submitted"});
+    }
+    run_or_start_anew(*context_, [&] { finish(); });
+}
+
+void World::Implementation::update(DevicePairTableBase& table) {
+    table.state_->update(*context_, identity_, instances_);
+}
+
+void World::Implementation::submit(DevicePairTableBase& table) {
+    table.state_->submit(*context_, identity_, instances_);
+}
+
+Status World::update(DevicePairTableBase& table, const Limits& limits) {
     return catch_within(limits, [&] { implementation_->update(table); });
 }
 
-Status World::update(DevicePairTable<ContactQuery>& table, const Limits& limits) {
-    return catch_within(limits, [&] { implementation_->update(table); });
+Status World::submit(DevicePairTableBase& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->submit(table); });
 }
 
-Status World::update(DevicePairTable<ClosestPointQuery>& table, const Limits& limits) {
-    return catch_within(limits, [&] { implementation_->update(table); });
+Status DevicePairTableBase::collect(const Limits& limits) {
+    return catch_within(limits, [&] { state_->collect(); });
 }
 
-Status World::update(DevicePairTable<SeparationQuery>& table, const Limits& limits) {
-    return catch_within(limits, [&] { implementation_->update(table); });
-}
-
-Status World::update(DevicePairTable<IntersectionTestQuery>& table, const Limits& limits) {
-    return catch_within(limits, [&] { implementation_->update(table); });
+bool DevicePairTableBase::is_ready() const noexcept {
+    return state_->is_ready();
 }
 
 }  // namespace nearfield

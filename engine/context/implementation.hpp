@@ -94,6 +94,8 @@ public:
     [[nodiscard]] const JobSystem& jobs() const { return settings_.jobs; }
     [[nodiscard]] const DeviceTechniques& techniques() const { return settings_.techniques; }
     [[nodiscard]] std::uint64_t memory_limit() const { return settings_.memory_limit; }
+    /// Tables of pairs that were submitted and not collected; they use the renderer.
+    std::uint32_t tables_in_flight = 0;
     [[nodiscard]] const render::Renderer* renderer() const { return machinery_->renderer.get(); }
     [[nodiscard]] render::Renderer* renderer() { return machinery_->renderer.get(); }
 

@@ -61,6 +61,7 @@ public:
                 std::span<const Pose> ends);
 
     void update(DevicePairTableBase& table);
+    void submit(DevicePairTableBase& table);
 
     [[nodiscard]] std::uint64_t bytes() const;
     void trim();

@@ -44,10 +44,15 @@ namespace nearfield::plan {
 [[nodiscard]] Status unresolved(double tolerance, double largest_magnitude, double smallest);
 [[nodiscard]] Status too_deviant(double tolerance, const Deviations& deviations, double bound);
 
+/// The smallest tolerance that double precision can resolve at these coordinates.
+[[nodiscard]] constexpr double smallest_tolerance(double largest_magnitude) {
+    // Transforming a vertex rounds a few times; this keeps that far below a thousandth of d.
+    return 4096.0 * std::numeric_limits<double>::epsilon() * largest_magnitude;
+}
+
 /// Checks that double precision can resolve the tolerance at these coordinates.
 [[nodiscard]] inline Status check_resolution(double tolerance, double largest_magnitude) {
-    // Transforming a vertex rounds a few times; this keeps that far below a thousandth of d.
-    const double smallest = 4096.0 * std::numeric_limits<double>::epsilon() * largest_magnitude;
+    const double smallest = smallest_tolerance(largest_magnitude);
     return tolerance < smallest ? unresolved(tolerance, largest_magnitude, smallest) : Status();
 }
 

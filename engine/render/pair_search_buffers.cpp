@@ -89,11 +89,6 @@ void PairSearchBuffers::set_query(plan::PairQueryData query) {
     std::memcpy(instances_.data(), &query, sizeof(query));
 }
 
-void PairSearchBuffers::set_instance(std::uint32_t number, const SearchInstanceData& data) {
-    std::memcpy(instances_.data() + sizeof(plan::PairQueryData) + number * sizeof(data), &data,
-                sizeof(data));
-}
-
 void PairSearchBuffers::set_order(std::span<const std::uint32_t> order) {
     auto* const words =
         reinterpret_cast<std::uint32_t*>(instances_.data() + sizeof(plan::PairQueryData) +
@@ -146,11 +141,11 @@ PairSearchBuffers::Bytes PairSearchBuffers::place_arrays() {
             bytes_of_rows(rows)};
 }
 
-void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
+void PairSearchBuffers::lay_out() {
     const std::uint64_t reached = device_->limits().maxStorageBufferRange;
     const auto fit = [&](const Bytes& bytes) {
         return std::max({bytes.scratch, bytes.records, bytes.rows}) <= reached &&
-               bytes.scratch + bytes.records + bytes.rows <= memory_limit;
+               bytes.scratch + bytes.records + bytes.rows <= memory_limit_;
     };
     Bytes bytes = place_arrays();
     if (!fit(bytes)) {
@@ -165,7 +160,7 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
                  " bytes on the device, " +
                  std::to_string(std::max({bytes.scratch, bytes.records, bytes.rows})) +
                  " of them in one buffer; Settings::memory_limit is " +
-                 std::to_string(memory_limit) + ", and shaders reach " + std::to_string(reached) +
+                 std::to_string(memory_limit_) + ", and shaders reach " + std::to_string(reached) +
                  " of a buffer"});
     }
     scratch_bytes_ = bytes.scratch;
@@ -213,8 +208,13 @@ void PairSearchBuffers::bind() const {
 }
 
 /// The commands stay the same as long as the memory does.
-void PairSearchBuffers::submit(const passes::PairSearch& passes, Timings& timings) {
+void PairSearchBuffers::submit(Timings& timings) {
+    checkpoint();
     const Stopwatch start;
+    if (!is_laid_out_) {
+        is_recorded_ = false;
+        lay_out();
+    }
     clear_counts(arguments_, plan::stages_of_pairs);
     std::memset(rows_.data(), 0, sizeof(plan::PairRowData));
     rows_.flush();
@@ -223,7 +223,7 @@ void PairSearchBuffers::submit(const passes::PairSearch& passes, Timings& timing
     } else {
         VkCommandBuffer commands = submission_.begin(true);
         timestamps_.reset(commands);
-        passes.record(commands, timestamps_, item_);
+        passes_->record(commands, timestamps_, item_);
         submission_.submit();
     }
     is_submitted_ = is_recorded_ = true;
@@ -267,25 +267,26 @@ void PairSearchBuffers::grow() {
     is_laid_out_ = false;
 }
 
-void PairSearchBuffers::search(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-                               std::uint64_t memory_limit, Timings& timings) {
+void PairSearchBuffers::begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
+                              std::uint64_t memory_limit, Timings& timings) {
+    passes_ = &passes;
+    memory_limit_ = memory_limit;
     upload_shapes(shapes);
     instances_.flush();
+    submit(timings);
+}
+
+void PairSearchBuffers::finish(Timings& timings) {
     for (;;) {
-        checkpoint();
-        if (!is_laid_out_) {
-            is_recorded_ = false;
-            lay_out(memory_limit);
-        }
-        submit(passes, timings);
-        const Stopwatch submitted;
+        const Stopwatch waiting;
         read_back();
-        timings.device += submitted.milliseconds();
+        timings.device += waiting.milliseconds();
         timestamps_.collect(timings.passes);
         if (have_room(counts_, item_.capacities)) {
             break;
         }
         grow();
+        submit(timings);
     }
     rows_.invalidate();
     read_undecided();

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -39,16 +40,23 @@ public:
     void reserve_instances(std::uint32_t count);
     /// What holds for all pairs; the member `order` is set by this class.
     void set_query(plan::PairQueryData query);
-    void set_instance(std::uint32_t number, const plan::SearchInstanceData& data);
+    void set_instance(std::uint32_t number, const plan::SearchInstanceData& data) {
+        std::memcpy(instances_.data() + sizeof(plan::PairQueryData) + number * sizeof(data), &data,
+                    sizeof(data));
+    }
     /// The instances in the order of the hierarchy: a permutation of their numbers.
     void set_order(std::span<const std::uint32_t> order);
 
-    /// Finds all pairs and waits for them: submits as often as it takes to have room for all.
-    /// Throws StatusException, (too_large) if the device cannot hold them, or they need more bytes
-    /// than `memory_limit`. Adds the times of recording and submission, of the device, and of the
-    /// passes.
-    void search(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-                std::uint64_t memory_limit, Timings& timings);
+    /// Lets the device find all pairs. The passes must stay until finish(), and nothing may be
+    /// changed. Throws StatusException, (too_large) if the device cannot hold them, or they need
+    /// more bytes than `memory_limit`. Adds the time of recording and submission.
+    void begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
+               std::uint64_t memory_limit, Timings& timings);
+    /// Whether finish() need not wait for what was begun.
+    [[nodiscard]] bool is_done() const { return !is_submitted_ || submission_.is_done(); }
+    /// Waits for what was begun; submits as often as it takes to have room for all. Throws as
+    /// begin(). Adds the times of the waits and of the passes, and as begin().
+    void finish(Timings& timings);
 
     [[nodiscard]] const PairCounts& counts() const { return counts_; }
     /// The rows that the CPU has to decide, in ascending order.
@@ -74,9 +82,9 @@ private:
         std::uint64_t rows = 0;
     };
     [[nodiscard]] Bytes place_arrays();
-    void lay_out(std::uint64_t memory_limit);
+    void lay_out();
     void bind() const;
-    void submit(const passes::PairSearch& passes, Timings& timings);
+    void submit(Timings& timings);
     void read_back();
     void read_undecided();
     void grow();
@@ -85,6 +93,8 @@ private:
     const passes::ComputeLayout* layout_;
     gpu::Submission submission_;
     gpu::Timestamps timestamps_;
+    const passes::PairSearch* passes_ = nullptr;  // of the last search, as is the limit
+    std::uint64_t memory_limit_ = 0;
     bool is_submitted_ = false;
     gpu::MappedBuffer shapes_;
     gpu::MappedBuffer instances_;

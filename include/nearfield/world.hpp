@@ -213,8 +213,7 @@ struct ShapeCastHit {
 
 template <class Query>
 class PairTable;
-template <class Query>
-class DevicePairTable;
+class DevicePairTableBase;
 
 /// Instances of shapes of one context, kept from frame to frame.
 ///
@@ -361,15 +360,12 @@ public:
     /// instances, or more pairs or points than the device has memory for; if `limits` end the call;
     /// and as Context::run(). The table is empty then, unless the limits themselves are refused.
     /// Errors of single pairs are the status of their rows.
-    Status update(DevicePairTable<PenetrationQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(DevicePairTable<ContactQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(DevicePairTable<ClosestPointQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(DevicePairTable<SeparationQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(DevicePairTable<IntersectionTestQuery>& table, const Limits& limits = {});
+    Status update(DevicePairTableBase& table, const Limits& limits = {});
+    /// Does the first half of it: uploads what has changed, and lets the device begin. The second
+    /// half is DevicePairTable::collect(); until then the table has no rows, and update() and
+    /// submit() leave it alone and fail with not_ready. Instances and shapes may change meanwhile:
+    /// the table tells of them as they were. Otherwise likewise.
+    Status submit(DevicePairTableBase& table, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

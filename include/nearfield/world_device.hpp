@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/export.hpp>
+#include <nearfield/limits.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/status.hpp>
@@ -27,9 +28,18 @@ public:
     /// The number of candidates that the CPU answered during the last update.
     [[nodiscard]] std::uint32_t left_to_cpu() const noexcept;
 
-    /// Of the last update. `plan`: what has changed is uploaded; `device`: from submission until
-    /// the end of the wait; `decode`: pairs that the CPU answered.
+    /// Of the last update. `plan`: what has changed is uploaded; `device`: the wait; `decode`:
+    /// pairs that the CPU answered; `total`: of both halves, without what is between them.
     [[nodiscard]] const Timings& timings() const noexcept;
+
+    /// Waits for the device after World::submit(), has the CPU answer the pairs that are left to
+    /// it, and fills the rows. Submits again, and waits, where there was no room for all pairs; the
+    /// memory has grown then. Fails with not_ready if nothing was submitted; otherwise as
+    /// World::update().
+    Status collect(const Limits& limits = {});
+    /// True if the device has finished what World::submit() began; never waits. Also true once it
+    /// is lost. False if nothing was submitted.
+    [[nodiscard]] bool is_ready() const noexcept;
 
 protected:
     /// A table without rows; see DevicePairTable. The query is one of those that it has.
@@ -102,11 +112,16 @@ concept HasDistance = requires(const typename Query::Result& result) {
 /// single one; World::update() fails (too_large) beyond these, and where the pairs need more memory
 /// than Settings::memory_limit, or more of one buffer than the device's shaders reach.
 ///
+/// World::update() waits for the device. A frame that has other work for the CPU calls
+/// World::submit() first and collect() after that work; what needs the rows of the frame before
+/// meanwhile has two tables, in turns.
+///
 /// Used with one world at a time; a table that comes to another world starts anew. It keeps its
 /// memory, on the device too, from update to update, and holds the world's shapes as they were at
 /// the last update.
 ///
-/// Threads: as for the world. Lifetime: the world's context must outlive the table.
+/// Threads: as for the world. Lifetime: the world's context must outlive the table. A table
+/// that is destroyed before it is collected waits for the device.
 template <class Query>
 class DevicePairTable : public DevicePairTableBase {
 public:

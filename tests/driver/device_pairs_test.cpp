@@ -35,7 +35,11 @@ public:
     };
     static constexpr Step steps[] = {Step::first, Step::moved, Step::larger};
 
-    PairsOfDevice() : life_(Technique::compute), table_(PenetrationQuery{.tolerance = 0.05}) {
+    /// `by_halves`: submits and collects in place of an update.
+    explicit PairsOfDevice(bool by_halves)
+        : by_halves_(by_halves),
+          life_(Technique::compute),
+          table_(PenetrationQuery{.tolerance = 0.05}) {
         life_.take_all_before(World::Step::submit_first);
         driver().let_shaders_find({passes::ComputeLayout::output, pairs_found, word_of_pairs});
         Expected<nearfield::World> world = nearfield::World::create(life_.context());
@@ -45,7 +49,14 @@ public:
     }
 
     [[nodiscard]] MockDriver& driver() { return life_.driver(); }
-    [[nodiscard]] Status update() { return world_->update(table_); }
+    [[nodiscard]] Status submit() { return world_->submit(table_); }
+    [[nodiscard]] Status update() {
+        if (!by_halves_) {
+            return world_->update(table_);
+        }
+        Status status = submit();
+        return status.ok() ? table_.collect() : status;
+    }
     [[nodiscard]] const DevicePairTable<PenetrationQuery>& table() const { return table_; }
 
     /// What the host changes before the update of a step.
@@ -118,6 +129,7 @@ private:
         }
     }
 
+    bool by_halves_;
     World life_;
     std::optional<nearfield::World> world_;
     DevicePairTable<PenetrationQuery> table_;
@@ -126,10 +138,11 @@ private:
 
 using Step = PairsOfDevice::Step;
 
-void try_error(Step step, std::string_view call, std::size_t successes, VkResult error) {
+void try_error(bool by_halves, Step step, std::string_view call, std::size_t successes,
+               VkResult error) {
     SCOPED_TRACE(::testing::Message() << "step " << static_cast<int>(step) << ": call " << successes
                                       << " of " << call << " says " << name_of(error));
-    PairsOfDevice pairs;
+    PairsOfDevice pairs(by_halves);
     pairs.update_all_before(step);
     pairs.driver().fail(call, successes, error, MockDriver::Failing::from_then_on);
     const Status status = pairs.update();
@@ -148,21 +161,24 @@ void try_error(Step step, std::string_view call, std::size_t successes, VkResult
     pairs.expect_to_leave_nothing();
 }
 
-std::vector<std::string_view> calls_of(Step step) {
-    PairsOfDevice pairs;
+std::vector<std::string_view> calls_of(bool by_halves, Step step) {
+    PairsOfDevice pairs(by_halves);
     pairs.update_all_before(step);
     pairs.driver().forget_calls();
     pairs.expect_to_work();
     return pairs.driver().calls();
 }
 
-TEST(DevicePairsOfDriver, NameFailingCallsLeakNothingAndWorkAfterwards) {
+/// At once, and by halves.
+class DevicePairsOfDriver : public ::testing::TestWithParam<bool> {};
+
+TEST_P(DevicePairsOfDriver, NameFailingCallsLeakNothingAndWorkAfterwards) {
     for (const Step step : PairsOfDevice::steps) {
         std::map<std::string_view, std::size_t> count;
-        for (const std::string_view call : calls_of(step)) {
+        for (const std::string_view call : calls_of(GetParam(), step)) {
             for (const VkResult error : errors_of(call)) {
-                try_error(step, call, count[call], error);
-                if (::testing::Test::HasFailure()) {
+                try_error(GetParam(), step, call, count[call], error);
+                if (HasFailure()) {
                     return;
                 }
             }
@@ -176,13 +192,13 @@ TEST(DevicePairsOfDriver, NameFailingCallsLeakNothingAndWorkAfterwards) {
     }
 }
 
-TEST(DevicePairsOfDriver, SayThatHostMemoryRunsOutAndWorkAfterwards) {
+TEST_P(DevicePairsOfDriver, SayThatHostMemoryRunsOutAndWorkAfterwards) {
     for (const Step step : PairsOfDevice::steps) {
         bool has_failed = true;
         for (std::uint64_t successes = 0; has_failed; ++successes) {
             SCOPED_TRACE(::testing::Message() << "step " << static_cast<int>(step)
                                               << ": memory for " << successes << " allocations");
-            PairsOfDevice pairs;
+            PairsOfDevice pairs(GetParam());
             pairs.update_all_before(step);
             Status status;
             {
@@ -198,11 +214,20 @@ TEST(DevicePairsOfDriver, SayThatHostMemoryRunsOutAndWorkAfterwards) {
             pairs.expect_to_work();
             pairs.expect_an_answering_context();
             pairs.expect_to_leave_nothing();
-            if (::testing::Test::HasFailure()) {
+            if (HasFailure()) {
                 return;
             }
         }
     }
+}
+
+INSTANTIATE_TEST_SUITE_P(Halves, DevicePairsOfDriver, ::testing::Bool());
+
+/// As nothing of the context, a table that is still on the device leaves nothing.
+TEST(DevicePairsInFlight, AreWaitedForByTheirDestructor) {
+    PairsOfDevice pairs(true);
+    EXPECT_TRUE(pairs.submit().ok());
+    pairs.expect_to_leave_nothing();
 }
 
 }  // namespace

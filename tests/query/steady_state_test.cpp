@@ -271,7 +271,7 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
         for (std::uint32_t row = 0; row < intersections.size(); ++row) {
             ok = intersections.row(row).has_value() && ok;
         }
-        ok = world->update(contacts).ok() && ok;
+        ok = world->submit(contacts).ok() && contacts.collect().ok() && ok;
         for (std::uint32_t row = 0; row < contacts.size(); ++row) {
             ok = contacts.row(row).has_value() && contacts.records(row, contact_records).ok() &&
                  contacts.manifold(row, manifold).ok() && ok;

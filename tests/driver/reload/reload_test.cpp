@@ -1,4 +1,6 @@
 #include <nearfield/diagnostics.hpp>
+#include <nearfield/world.hpp>
+#include <nearfield/world_device.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/driver/world.hpp>
@@ -90,6 +92,21 @@ TEST_F(ReloadedShaders, WaitForBatchesInFlightToBeCollected) {
     EXPECT_EQ(*reload(), 1U);
     // Its ticket stays used, whatever was recreated.
     EXPECT_EQ(world_.context().collect(*ticket, results).code(), StatusCode::unknown_ticket);
+}
+
+TEST_F(ReloadedShaders, WaitForTablesOfPairsInFlightToBeCollected) {
+    nearfield::World world = *nearfield::World::create(world_.context());
+    DevicePairTable<PenetrationQuery> table({.tolerance = 0.1});
+    ASSERT_TRUE(world.submit(table).ok());
+    const Status status = reload().error();
+    EXPECT_EQ(status.code(), StatusCode::not_ready) << status.text();
+    EXPECT_TRUE(table.collect().ok());
+    change();
+    EXPECT_EQ(*reload(), 1U);
+    ASSERT_TRUE(world.submit(table).ok());
+    table = DevicePairTable<PenetrationQuery>({.tolerance = 0.1});
+    folder_.restore("collect_masks.comp");
+    EXPECT_EQ(*reload(), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,253 @@
+#include <tests/limits/cut.hpp>
+#include <tests/query/device_pairs.hpp>
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 25000;
+constexpr PenetrationQuery penetrations{.tolerance = 0.02};
+/// For the pairs of crowd(): single precision cannot tell how deep some points are.
+constexpr PenetrationQuery close_calls{.tolerance = 1e-5, .points = PenetrationPoints::vertices};
+
+/// Tables of pairs that are submitted, and collected while the world has changed.
+class DevicePairSubmissions : public DevicePairsTest {
+protected:
+    void TearDown() override {
+        if (square_ != ShapeHandle{}) {
+            EXPECT_TRUE(context().remove_shape(square_).ok());
+        }
+        DevicePairsTest::TearDown();
+    }
+
+    /// All that a table says.
+    struct Rows {
+        std::vector<PairRow<PenetrationQuery>> rows;
+        std::vector<std::vector<PenetrationRecord>> records;
+        std::uint32_t candidates = 0;
+        std::uint32_t left_to_cpu = 0;
+    };
+
+    static Rows rows_of(DevicePairTable<PenetrationQuery>& table) {
+        Rows all;
+        for (std::uint32_t i = 0; i < table.size(); ++i) {
+            const auto row = table.row(i);
+            EXPECT_TRUE(row.has_value()) << row.error().text();
+            all.rows.push_back(*row);
+            EXPECT_TRUE(table.records(i, all.records.emplace_back()).ok());
+        }
+        all.candidates = table.candidates();
+        all.left_to_cpu = table.left_to_cpu();
+        return all;
+    }
+
+    static void expect_equal(const Rows& found, const Rows& expected) {
+        ASSERT_EQ(found.rows.size(), expected.rows.size());
+        EXPECT_EQ(found.candidates, expected.candidates);
+        EXPECT_EQ(found.left_to_cpu, expected.left_to_cpu);
+        for (std::size_t i = 0; i < found.rows.size(); ++i) {
+            SCOPED_TRACE("row " + std::to_string(i));
+            EXPECT_EQ(found.rows[i].a, expected.rows[i].a);
+            EXPECT_EQ(found.rows[i].b, expected.rows[i].b);
+            EXPECT_EQ(found.rows[i].count, expected.rows[i].count);
+            EXPECT_EQ(found.rows[i].deepest.depth, expected.rows[i].deepest.depth);
+            ASSERT_EQ(found.records[i].size(), expected.records[i].size());
+            for (std::size_t k = 0; k < found.records[i].size(); ++k) {
+                EXPECT_EQ(found.records[i][k].point.x, expected.records[i][k].point.x);
+                EXPECT_EQ(found.records[i][k].depth, expected.records[i][k].depth);
+            }
+        }
+    }
+
+    /// Squares that overlap, of which some pairs are the CPU's.
+    void crowd() {
+        square_ = *context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+        for (int i = 0; i < 8; ++i) {
+            added_.push_back(add(square_, {.translation = {i / 3.0 + i, 0.0}}));
+            added_.push_back(add(square_, {.translation = {i / 3.0 + i + 1.0, 0.5}}));
+        }
+    }
+    /// Changes all that a table could look at.
+    void change(int number) {
+        ASSERT_TRUE(world().move(added_.front(), {{0.1 * number, 0.2}, 0.3}).ok());
+        const double size = 1.0 + 0.25 * number;
+        ASSERT_TRUE(context().update_shape(square_, rectangle({0.0, 0.0}, {size, size})).ok());
+        ASSERT_TRUE(world().remove(added_.back()).ok());
+        added_.back() = add(square_, {.translation = {2.5, 0.25}});
+    }
+
+    ShapeHandle square_;
+    std::vector<InstanceHandle> added_;
+};
+
+TEST_F(DevicePairSubmissions, TellOfTheWorldAsItWas) {
+    crowd();
+    DevicePairTable at_once(close_calls);
+    DevicePairTable by_halves(close_calls);
+    for (int i = 0; i < 4; ++i) {
+        ASSERT_TRUE(world().update(at_once).ok());
+        const Rows expected = rows_of(at_once);
+        EXPECT_GT(expected.rows.size(), 4U);
+        if (i == 0) {
+            EXPECT_GT(expected.left_to_cpu, 0U);
+        }
+        ASSERT_TRUE(world().submit(by_halves).ok());
+        EXPECT_EQ(by_halves.size(), 0U);
+        EXPECT_EQ(by_halves.candidates(), 0U);
+        change(i + 1);
+        const Status status = by_halves.collect();
+        ASSERT_TRUE(status.ok()) << status.text();
+        expect_equal(rows_of(by_halves), expected);
+        EXPECT_GT(by_halves.timings().total, 0.0);
+    }
+    ASSERT_TRUE(world().update(at_once).ok());
+    const Rows expected = rows_of(at_once);
+    ASSERT_TRUE(world().submit(by_halves).ok());
+    for (const InstanceHandle instance : std::exchange(added_, {})) {
+        ASSERT_TRUE(world().remove(instance).ok());
+    }
+    ASSERT_TRUE(context().remove_shape(std::exchange(square_, {})).ok());
+    ASSERT_TRUE(by_halves.collect().ok());
+    expect_equal(rows_of(by_halves), expected);
+}
+
+/// The rows of the frame before can be read while the device works at the next.
+TEST_F(DevicePairSubmissions, TakeTurns) {
+    Random random(seed);
+    std::vector<InstanceHandle> instances;
+    for (const Rings& rings : some_shapes(random)) {
+        instances.push_back(add(add_shape(rings), any_pose(random, 3.0)));
+        instances.push_back(add(world().instance(instances.back())->shape, any_pose(random, 3.0)));
+    }
+    DevicePairTable reference(penetrations);
+    std::array<DevicePairTable<PenetrationQuery>, 2> tables{DevicePairTable(penetrations),
+                                                            DevicePairTable(penetrations)};
+    std::optional<Rows> before;
+    for (std::size_t frame = 0; frame < 8; ++frame) {
+        for (const InstanceHandle instance : instances) {
+            ASSERT_TRUE(world().move(instance, any_pose(random, 3.0)).ok());
+        }
+        ASSERT_TRUE(world().submit(tables[frame % 2]).ok());
+        if (before) {
+            DevicePairTable<PenetrationQuery>& last = tables[(frame + 1) % 2];
+            ASSERT_TRUE(last.collect().ok());
+            expect_equal(rows_of(last), *before);
+        }
+        ASSERT_TRUE(world().update(reference).ok());
+        before = rows_of(reference);
+    }
+    EXPECT_GT(before->rows.size(), 3U);
+}
+
+/// There is room for some thousand pairs at first.
+TEST_F(DevicePairSubmissions, GrowWhenTheyAreCollected) {
+    const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    for (int i = 0; i < 120; ++i) {
+        add(square, {.translation = {0.01 * i, 0.005 * i}, .angle = 0.1 * i});
+    }
+    DevicePairTable reference(IntersectionTestQuery{});
+    ASSERT_TRUE(world().update(reference).ok());
+    DevicePairTable table(IntersectionTestQuery{});
+    ASSERT_TRUE(world().submit(table).ok());
+    ASSERT_TRUE(table.collect().ok());
+    EXPECT_EQ(table.size(), 120U * 119U / 2U);
+    EXPECT_EQ(table.size(), reference.size());
+}
+
+TEST_F(DevicePairSubmissions, AreReadyOnceTheDeviceIsDone) {
+    crowd();
+    DevicePairTable table(penetrations);
+    EXPECT_FALSE(table.is_ready());
+    ASSERT_TRUE(world().submit(table).ok());
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!table.is_ready() && std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::yield();
+    }
+    EXPECT_TRUE(table.is_ready());
+    ASSERT_TRUE(table.collect().ok());
+    EXPECT_FALSE(table.is_ready());
+    EXPECT_GT(table.size(), 0U);
+}
+
+TEST_F(DevicePairSubmissions, AreCollectedOnce) {
+    crowd();
+    DevicePairTable table(penetrations);
+    const Status early = table.collect();
+    EXPECT_EQ(early.code(), StatusCode::not_ready) << early.text();
+    ASSERT_TRUE(world().submit(table).ok());
+    for (const Status& status : {world().submit(table), world().update(table)}) {
+        EXPECT_EQ(status.code(), StatusCode::not_ready) << status.text();
+        EXPECT_NE(status.message().find("has not been collected"), std::string::npos);
+    }
+    EXPECT_EQ(table.row(0).error().code(), StatusCode::invalid_query);
+    ASSERT_TRUE(table.collect().ok());
+    EXPECT_GT(table.size(), 0U);
+    EXPECT_EQ(table.collect().code(), StatusCode::not_ready);
+    EXPECT_GT(table.size(), 0U);
+}
+
+TEST_F(DevicePairSubmissions, OfBadQueriesAreRefused) {
+    crowd();
+    DevicePairTable<PenetrationQuery> table({.tolerance = -1.0});
+    const Status status = world().submit(table);
+    EXPECT_EQ(status.code(), StatusCode::invalid_query);
+    EXPECT_EQ(status.message().find("submit: "), 0U) << status.text();
+    EXPECT_EQ(table.collect().code(), StatusCode::not_ready);
+}
+
+TEST_F(DevicePairSubmissions, OfAnEmptyWorldAreReadyAtOnce) {
+    DevicePairTable table(penetrations);
+    ASSERT_TRUE(world().submit(table).ok());
+    EXPECT_TRUE(table.is_ready());
+    ASSERT_TRUE(table.collect().ok());
+    EXPECT_EQ(table.size(), 0U);
+}
+
+TEST_F(DevicePairSubmissions, CutByLimitsAreNone) {
+    crowd();
+    DevicePairTable reference(close_calls);
+    ASSERT_TRUE(world().update(reference).ok());
+    const Rows expected = rows_of(reference);
+    DevicePairTable table(close_calls);
+    const std::uint64_t cuts = cut_everywhere(dense, [&](std::uint64_t n) {
+        SCOPED_TRACE("cut at checkpoint " + std::to_string(n));
+        EXPECT_TRUE(world().submit(table).ok());
+        const Cut cut(n);
+        const Status status = table.collect(cut.limits());
+        EXPECT_EQ(status.code(), cut.has_cut() ? StatusCode::cancelled : StatusCode::ok)
+            << status.text();
+        EXPECT_EQ(table.size() > 0, !cut.has_cut());
+        EXPECT_TRUE(world().update(table).ok());
+        expect_equal(rows_of(table), expected);
+        return cut.has_cut() && !HasFailure();
+    });
+    EXPECT_GE(cuts, 2U);
+}
+
+/// A table that is not collected waits for the device, and takes nothing with it.
+TEST_F(DevicePairSubmissions, MayBeGivenUp) {
+    crowd();
+    {
+        DevicePairTable given_up(penetrations);
+        ASSERT_TRUE(world().submit(given_up).ok());
+    }
+    DevicePairTable replaced(penetrations);
+    ASSERT_TRUE(world().submit(replaced).ok());
+    replaced = DevicePairTable(penetrations);
+    EXPECT_EQ(replaced.collect().code(), StatusCode::not_ready);
+    DevicePairTable moved(penetrations);
+    ASSERT_TRUE(world().submit(moved).ok());
+    DevicePairTable table = std::move(moved);
+    ASSERT_TRUE(table.collect().ok());
+    EXPECT_GT(table.size(), 0U);
+}
+
+}  // namespace
+}  // namespace nearfield::test
