@@ -144,6 +144,18 @@ std::optional<LooseEnd> close_chains(std::vector<ArcChain>& chains, double gap) 
     return std::nullopt;
 }
 
+double extent_of(const std::vector<ArcChain>& chains) {
+    Vector2 low{largest_coordinate, largest_coordinate};
+    Vector2 high{-largest_coordinate, -largest_coordinate};
+    for (const ArcChain& chain : chains) {
+        for (const ArcChain::Point& point : chain.points) {
+            low = {std::min(low.x, point.at.x), std::min(low.y, point.at.y)};
+            high = {std::max(high.x, point.at.x), std::max(high.y, point.at.y)};
+        }
+    }
+    return std::max(high.x - low.x, high.y - low.y);
+}
+
 std::size_t remove_repeated(std::vector<ArcChain>& chains) {
     using Segment = std::tuple<double, double, double, double, double>;
     std::set<Segment> seen;

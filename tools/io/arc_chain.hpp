@@ -33,6 +33,9 @@ struct LooseEnd {
 /// difference to the odd-even rule. Returns the first loose end, if there is one.
 [[nodiscard]] std::optional<LooseEnd> close_chains(std::vector<ArcChain>& chains, double gap);
 
+/// The larger side of the box around all points.
+[[nodiscard]] double extent_of(const std::vector<ArcChain>& chains);
+
 /// Removes all but one of the open chains of one segment that join the same points alike, in either
 /// direction; returns how many.
 std::size_t remove_repeated(std::vector<ArcChain>& chains);

@@ -2,7 +2,6 @@
 #include <nearfield/shape.hpp>
 
 #include <tools/io/arc_chain.hpp>
-#include <tools/io/characters.hpp>
 #include <tools/io/dxf.hpp>
 #include <tools/io/dxf_groups.hpp>
 #include <tools/io/values.hpp>
@@ -11,6 +10,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -26,21 +28,6 @@ struct DxfBlock {
     CurvePath path = {};
     std::size_t segments = 0;  ///< of the path
 };
-
-/// What is no outline.
-bool is_annotation(std::string_view type) {
-    constexpr std::string_view types[] = {
-        "TEXT",   "MTEXT",  "DIMENSION", "LEADER", "MULTILEADER", "TOLERANCE", "POINT",  "HATCH",
-        "ATTDEF", "ATTRIB", "XLINE",     "RAY",    "VIEWPORT",    "IMAGE",     "SEQEND", "WIPEOUT"};
-    return std::find(std::begin(types), std::end(types), type) != std::end(types);
-}
-
-/// The name of the block that an entity defines or places; small letters are as capitals.
-std::string block_name(const DxfEntity& entity) {
-    std::string name(entity.text(2));
-    std::transform(name.begin(), name.end(), name.begin(), to_upper);
-    return name;
-}
 
 class DxfReader {
     // Blocks in blocks multiply: a small file must not take all memory.
@@ -132,8 +119,10 @@ private:
             } else if (entity.type == "ENDSEC") {
                 section = {};
                 block = nullptr;
+            } else if (section == "TABLES" && entity.type == "LAYER") {
+                read_layer(entity);
             } else if (section == "BLOCKS" && entity.type == "BLOCK") {
-                block = &blocks_[block_name(entity)];
+                block = &blocks_[entity.name(2)];
                 *block = {.base = point(entity, 10)};
             } else if (section == "BLOCKS" && entity.type == "ENDBLK") {
                 block = nullptr;
@@ -152,6 +141,12 @@ private:
             if (header.groups[i].code == 9 && header.groups[i].value == "$INSUNITS") {
                 pixels_ = pixels_of_insunits(number(header.groups[i + 1]));
             }
+        }
+    }
+
+    void read_layer(const DxfEntity& layer) {
+        if (number(layer, 62, 7.0) < 0.0 || has_flag(layer, 70, 1)) {
+            hidden_layers_.insert(layer.name(2));
         }
     }
 
@@ -177,16 +172,7 @@ private:
     }
 
     void close(std::vector<ArcChain>& chains) {
-        constexpr double part = 1e-6;
-        Vector2 low{largest_coordinate, largest_coordinate};
-        Vector2 high{-largest_coordinate, -largest_coordinate};
-        for (const ArcChain& chain : chains) {
-            for (const ArcChain::Point& point : chain.points) {
-                low = {std::min(low.x, point.at.x), std::min(low.y, point.at.y)};
-                high = {std::max(high.x, point.at.x), std::max(high.y, point.at.y)};
-            }
-        }
-        const double gap = part * std::max(high.x - low.x, high.y - low.y);
+        const double gap = 1e-6 * extent_of(chains);
         std::optional<LooseEnd> end = close_chains(chains, gap);
         if (const std::size_t repeated = end ? remove_repeated(chains) : 0; repeated > 0) {
             skipped_.add("line drawn twice", repeated);
@@ -205,10 +191,12 @@ private:
         const DxfEntity& entity = block.entities[index];
         const std::string_view type = entity.type;
         if (has_flag(entity, 67, 1) || has_flag(entity, 60, 1)) {
-            skipped_.add("of paper space, or invisible");
-            return;
+            return skip(block, index, "of paper space, or invisible");
         }
-        if (is_annotation(type)) {
+        if (hidden_layers_.contains(entity.name(8))) {
+            return skip(block, index, "on a layer that is off or frozen");
+        }
+        if (is_dxf_annotation(type)) {
             skipped_.add(type);
         } else if (type == "LWPOLYLINE") {
             add(lightweight(entity), chains);
@@ -233,6 +221,17 @@ private:
             insert(block, entity);
         } else {
             fail(entity, "is not read; convert it to polylines, or remove it");
+        }
+    }
+
+    /// Passes an entity, with the vertices that follow it.
+    void skip(const DxfBlock& block, std::size_t& index, std::string_view why) {
+        skipped_.add(why);
+        const auto next_is = [&](std::string_view type) {
+            return index + 1 < block.entities.size() && block.entities[index + 1].type == type;
+        };
+        while (next_is("VERTEX") || next_is("SEQEND")) {
+            ++index;
         }
     }
 
@@ -349,7 +348,7 @@ private:
     }
 
     void insert(DxfBlock& block, const DxfEntity& entity) {
-        const auto found = blocks_.find(block_name(entity));
+        const auto found = blocks_.find(entity.name(2));
         if (found == blocks_.end()) {
             fail(entity, "there is no block \"" + std::string(entity.text(2).substr(0, 40)) + "\"");
         }
@@ -386,6 +385,7 @@ private:
     DxfGroups groups_;
     SkippedParts& skipped_;
     std::map<std::string, DxfBlock> blocks_;
+    std::set<std::string> hidden_layers_;  ///< off or frozen
     DxfBlock model_;
     double pixels_ = 0.0;  ///< in a unit of the file; 0 if it states none
 };

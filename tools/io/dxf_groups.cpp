@@ -1,3 +1,4 @@
+#include <tools/io/characters.hpp>
 #include <tools/io/dxf_groups.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/text_file.hpp>
@@ -5,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 
 namespace nearfield::tools {
 
@@ -50,6 +52,19 @@ const DxfGroup* DxfEntity::find(int code) const {
 std::string_view DxfEntity::text(int code) const {
     const DxfGroup* const group = find(code);
     return group == nullptr ? std::string_view() : group->value;
+}
+
+std::string DxfEntity::name(int code) const {
+    std::string name(text(code));
+    std::transform(name.begin(), name.end(), name.begin(), to_upper);
+    return name;
+}
+
+bool is_dxf_annotation(std::string_view type) {
+    constexpr std::string_view types[] = {
+        "TEXT",   "MTEXT",  "DIMENSION", "LEADER", "MULTILEADER", "TOLERANCE", "POINT",  "HATCH",
+        "ATTDEF", "ATTRIB", "XLINE",     "RAY",    "VIEWPORT",    "IMAGE",     "SEQEND", "WIPEOUT"};
+    return std::find(std::begin(types), std::end(types), type) != std::end(types);
 }
 
 std::vector<DxfEntity> read_dxf_entities(DxfGroups& groups) {

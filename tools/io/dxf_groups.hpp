@@ -46,7 +46,12 @@ struct DxfEntity {
     [[nodiscard]] const DxfGroup* find(int code) const;
     /// The value of the first group with a code; empty if there is none.
     [[nodiscard]] std::string_view text(int code) const;
+    /// The same as a name, in which small letters are as capitals.
+    [[nodiscard]] std::string name(int code) const;
 };
+
+/// Whether entities of a type are no outlines, but say something about them.
+[[nodiscard]] bool is_dxf_annotation(std::string_view type);
 
 /// All entities and markers of a DXF file in text form.
 [[nodiscard]] std::vector<DxfEntity> read_dxf_entities(DxfGroups& groups);

@@ -1,7 +1,10 @@
 #include <tools/io/geojson.hpp>
+#include <tools/io/input_error.hpp>
 
 #include <cmath>
 #include <cstddef>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace nearfield::tools {
@@ -44,7 +47,7 @@ class GeojsonReader {
 public:
     explicit GeojsonReader(SkippedParts& skipped) : skipped_(skipped) {}
 
-    std::vector<Ring> read(const JsonPlace& root) {
+    void read(const JsonPlace& root) {
         const std::string& type = root.member("type").string();
         if (type == "Feature") {
             read_feature(root);
@@ -53,8 +56,12 @@ public:
         } else {
             read_geometry(root, 0);
         }
+    }
+
+    /// The rings of all that was read. `file`: for the message if there are none.
+    std::vector<Ring> take_rings(const std::string& file) {
         if (rings_.empty()) {
-            root.fail(skipped_.no_polygon_text());
+            throw InputError(file + ": " + skipped_.no_polygon_text());
         }
         return std::move(rings_);
     }
@@ -154,11 +161,61 @@ void append_rings(const JsonPlace& coordinates, std::vector<Ring>& rings) {
     }
 }
 
+namespace {
+
+/// Separates the texts of a sequence, before each of them (RFC 8142).
+constexpr char record_separator = '\x1E';
+
+/// Whether the text is a sequence of JSON texts, one a line: what begins with a record separator,
+/// or whose first line is complete and not the last.
+bool is_sequence(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos || text[first] == record_separator) {
+        return first != std::string::npos;
+    }
+    const std::size_t end = text.find('\n', first);
+    return end != std::string::npos &&
+           text.find_first_not_of(" \t\r\n", end) != std::string::npos &&
+           json::accept(text.substr(first, end - first));
+}
+
+/// Reads a line of a sequence, unless it is blank.
+void read_line(const std::string& line, std::size_t number, const std::string& file,
+               GeojsonReader& reader) {
+    const std::size_t first = line.find_first_not_of(" \t\r\x1E");
+    if (first == std::string::npos) {
+        return;
+    }
+    const std::string text = std::string(first, ' ') + line.substr(first);
+    if (!json::accept(text)) {
+        // Line breaks are nothing to JSON; with them, the message names the line of the file.
+        static_cast<void>(parse_json(std::string(number - 1, '\n') + text, file));
+    }
+    const std::string place = file + ":" + std::to_string(number);
+    const json document = parse_json(text, place);
+    reader.read(JsonPlace(document, place));
+}
+
+void read_sequence(const std::string& text, const std::string& file, GeojsonReader& reader) {
+    std::istringstream stream(text);
+    std::size_t number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        read_line(line, ++number, file, reader);
+    }
+}
+
+}  // namespace
+
 std::vector<Ring> parse_geojson(const std::string& text, const std::string& file,
                                 SkippedParts& skipped, std::vector<std::uint32_t>* part_sizes) {
-    const json document = parse_json(text, file);
     GeojsonReader reader(skipped);
-    std::vector<Ring> rings = reader.read(JsonPlace(document, file));
+    if (is_sequence(text)) {
+        read_sequence(text, file, reader);
+    } else {
+        const json document = parse_json(text, file);
+        reader.read(JsonPlace(document, file));
+    }
+    std::vector<Ring> rings = reader.take_rings(file);
     if (part_sizes != nullptr) {
         *part_sizes = reader.part_sizes();
     }

@@ -10,11 +10,12 @@
 
 namespace nearfield::tools {
 
-/// The rings of GeoJSON: a Polygon or MultiPolygon, a GeometryCollection, a Feature or a
-/// FeatureCollection. All polygons together are one shape. Points, lines, empty polygons and
-/// features without geometry are counted in `skipped`; a document with nothing else is refused, and
-/// so is an unknown type. Coordinates are planar; those beyond x and y are ignored. `file` is for
-/// the messages of InputError.
+/// The rings of GeoJSON: a Polygon or MultiPolygon, a GeometryCollection, a Feature, a
+/// FeatureCollection, or a sequence of these, one a line (RFC 8142, or without its separators). All
+/// polygons together are one shape. Points, lines, empty polygons and features without geometry are
+/// counted in `skipped`; a document with nothing else is refused, and so is an unknown type.
+/// Coordinates are planar; those beyond x and y are ignored. `file` is for the messages of
+/// InputError.
 [[nodiscard]] std::vector<Ring> parse_geojson(const std::string& text, const std::string& file,
                                               SkippedParts& skipped,
                                               std::vector<std::uint32_t>* part_sizes = nullptr);

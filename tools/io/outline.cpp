@@ -36,7 +36,7 @@ OutlineFormat guess_format(std::string_view bytes, const std::string& name) {
     }
     const std::string_view text = bytes.substr(bytes.find_first_not_of(" \t\r\n"));
     const char first = text.front();
-    if (first == '{') {
+    if (first == '{' || first == '\x1E') {
         return OutlineFormat::geojson;
     }
     if (first == '<') {
@@ -73,7 +73,8 @@ OutlineFormat format_of(const InputFile& file) {
         throw InputError(file.name + ": is empty");
     }
     const std::string extension = lower_case_extension(file.name);
-    if (extension == ".geojson" || extension == ".json") {
+    if (extension == ".geojson" || extension == ".json" || extension == ".geojsonl" ||
+        extension == ".geojsons" || extension == ".ndjson") {
         return OutlineFormat::geojson;
     }
     if (extension == ".wkt" || extension == ".wkb") {

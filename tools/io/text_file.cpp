@@ -1,3 +1,4 @@
+#include <iconv.h>
 #include <tools/io/input_error.hpp>
 #include <tools/io/text_file.hpp>
 
@@ -10,6 +11,33 @@
 #include <iterator>
 
 namespace nearfield::tools {
+namespace {
+
+/// Bytes as they are or, if they begin with a byte order mark of UTF-16, as UTF-8.
+std::string to_utf8(std::string bytes, const std::string& name) {
+    if (!bytes.starts_with("\xFF\xFE") && !bytes.starts_with("\xFE\xFF")) {
+        return bytes;
+    }
+    const iconv_t converter = iconv_open("UTF-8", "UTF-16");
+    if (converter == iconv_t(-1)) {
+        throw InputError(name + ": this system does not convert UTF-16; save the file as UTF-8");
+    }
+    std::string text(2 * bytes.size(), '\0');  // a unit of two bytes takes three at most
+    char* from = bytes.data();
+    char* to = text.data();
+    std::size_t from_left = bytes.size();
+    std::size_t to_left = text.size();
+    const bool is_valid = iconv(converter, &from, &from_left, &to, &to_left) != std::size_t(-1);
+    iconv_close(converter);
+    if (!is_valid) {
+        throw InputError(name + ": is not UTF-16, although it begins so: byte " +
+                         std::to_string(bytes.size() - from_left));
+    }
+    text.resize(text.size() - to_left);
+    return text;
+}
+
+}  // namespace
 
 std::string read_bytes(std::istream& stream, const std::string& name) {
     std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -35,9 +63,9 @@ std::string read_bytes(const std::string& path) {
 InputFile read_input(const std::string& path) {
     if (path == "-") {
         const std::string name = "standard input";
-        return {name, read_bytes(std::cin, name)};
+        return {name, to_utf8(read_bytes(std::cin, name), name)};
     }
-    return {path, read_bytes(path)};
+    return {path, to_utf8(read_bytes(path), path)};
 }
 
 std::string lower_case_extension(const std::string& path) {

@@ -13,7 +13,7 @@ namespace nearfield::tools {
 /// All that a stream still has; `name` is for the messages.
 [[nodiscard]] std::string read_bytes(std::istream& stream, const std::string& name);
 
-/// A file as it was read.
+/// A file as it was read; what begins with a byte order mark of UTF-16 has become UTF-8.
 struct InputFile {
     std::string name;  ///< its path, whose extension may say what it holds; for messages
     std::string bytes;

@@ -326,5 +326,36 @@ TEST(ToolsDxf, IsKnownByItsBeginning) {
     EXPECT_EQ(format_of({"standard input", "0103000000"}), OutlineFormat::hex_wkb);
 }
 
+TEST(ToolsDxf, LayersThatAreOffOrFrozenAreLeftOut) {
+    const auto layer = [](const std::string& name, const std::string& rest) {
+        return " 0 LAYER 2 " + name + " " + rest;
+    };
+    const std::string tables = "0 SECTION 2 TABLES 0 TABLE 2 LAYER" + layer("off", "70 0 62 -7") +
+                               layer("FROZEN", "70 1 62 7") + layer("locked", "70 4 62 1") +
+                               layer("plain", "") +
+                               " 0 ENDTAB 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 2 " +
+                               "B 10 0 20 0 0 CIRCLE 8 0 10 9 20 9 40 1 0 ENDBLK 0 ENDSEC";
+    const auto square = [](const std::string& name, int x) {
+        const std::string left = std::to_string(x);
+        const std::string right = std::to_string(x + 1);
+        return " 0 LWPOLYLINE 8 " + name + " 70 1 10 " + left + " 20 0 10 " + right + " 20 0 10 " +
+               right + " 20 1 10 " + left + " 20 1";
+    };
+    SkippedParts skipped;
+    const CurvePath path = parse_dxf(
+        drawing(
+            square("locked", 0) + square("Off", 2) + square("plain", 4) + square("nowhere", 6) +
+                " 0 POLYLINE 8 frozen 70 1 10 0 20 0 0 VERTEX 8 frozen 10 0 20 0 0 VERTEX 8 0 10 " +
+                "2 20 0 0 SEQEND 0 INSERT 8 OFF 2 B 10 0 20 0" + square("0", 8),
+            tables),
+        "a.dxf", skipped, LengthUnit::user);
+    EXPECT_EQ(areas(path).size(), 4U);
+    EXPECT_EQ(skipped.text(), "on a layer that is off or frozen (3)");
+    const std::string nothing = refusal(drawing(square("off", 0), tables));
+    EXPECT_NE(nothing.find("has no outline, only on a layer that is off or frozen (1)"),
+              std::string::npos)
+        << nothing;
+}
+
 }  // namespace
 }  // namespace nearfield::tools

@@ -42,6 +42,35 @@ TEST(ToolsGeojson, ReadsEveryKindThatHoldsPolygons) {
     EXPECT_EQ(parse_geojson(R"({"type": "Feature", "geometry": )" + nested + "}", "f"), two);
 }
 
+TEST(ToolsGeojson, SequencesHaveADocumentALine) {
+    const std::vector<Ring> two{{{0, 0}, {4, 0}, {0, 3}, {0, 0}}, {{0, 0}, {4, 0}, {0, 3}, {0, 0}}};
+    const std::string one = polygon(triangle);
+    const std::string feature = R"({"type": "Feature", "geometry": )" + one + "}";
+    for (const std::string& text :
+         {one + "\n" + feature, one + "\r\n\r\n" + feature + "\r\n\n",
+          "\n" + feature + "\n  " + one, "\x1E" + one + "\n\x1E" + feature + "\n",
+          " \x1E" + one + "\n" + feature}) {
+        EXPECT_EQ(parse_geojson(text, "f"), two) << text;
+    }
+    // One document, whose first line is not complete, or the last.
+    const std::vector<Ring> single{two.front()};
+    EXPECT_EQ(parse_geojson("{\n\"type\": \"Polygon\",\n\"coordinates\": " + triangle + "\n}", "f"),
+              single);
+    EXPECT_EQ(parse_geojson("\x1E" + one, "f"), single);
+    EXPECT_EQ(parse_geojson(one + "\n\n \n", "f"), single);
+}
+
+TEST(ToolsGeojson, RefusalsOfSequencesNameTheLine) {
+    const std::string one = polygon(triangle);
+    EXPECT_EQ(error_of(one + "\n\n {\"type\" 1}\n" + one).find("a.geojson:3:10: not JSON"), 0U)
+        << error_of(one + "\n\n {\"type\" 1}\n" + one);
+    EXPECT_EQ(error_of(one + "\n{\"type\": \"Circle\"}").find("a.geojson:2: type: "), 0U)
+        << error_of(one + "\n{\"type\": \"Circle\"}");
+    EXPECT_EQ(error_of(one + "\n" + one + one).find("a.geojson:2:"), 0U);
+    const std::string point = R"({"type": "Point", "coordinates": [1, 2]})";
+    EXPECT_NE(error_of(point + "\n" + point).find("Point (2)"), std::string::npos);
+}
+
 TEST(ToolsGeojson, PartsThatHoldNoAreaAreSkippedAndCounted) {
     const std::string point = R"({"type": "Point", "coordinates": [1, 2]})";
     const std::string line = R"({"type": "LineString", "coordinates": [[1, 2], [3, 4]]})";
