@@ -102,6 +102,7 @@ Ticket BatchRing::start_batch(const Batch& batch, Results* memory, const Start& 
     const Stopwatch stopwatch;
     last_ = nullptr;
     Frame& frame = free_frame();
+    const double made = frame.runner.pipeline_milliseconds();
     if (memory != nullptr) {
         std::swap(*memory, frame.runner.results());
     }
@@ -115,7 +116,8 @@ Ticket BatchRing::start_batch(const Batch& batch, Results* memory, const Start& 
     }
     frame.number = ++last_number_;
     last_ = &frame;
-    frame.runner.results().timings.total = stopwatch.milliseconds();
+    frame.runner.results().timings.total =
+        stopwatch.milliseconds() - (frame.runner.pipeline_milliseconds() - made);
     return {frame.number, shapes_->context()};
 }
 
@@ -201,6 +203,7 @@ bool BatchRing::is_ready(Ticket ticket) {
 void BatchRing::collect(Ticket ticket, Results& results) {
     const Stopwatch start;
     Frame& frame = require(ticket);
+    const double made = frame.runner.pipeline_milliseconds();
     if (frame.runner.submission_state() == render::SubmissionState::recorded &&
         !is_complete(frame.host_frame)) {
         throw StatusException(
@@ -217,7 +220,7 @@ void BatchRing::collect(Ticket ticket, Results& results) {
     }
     std::swap(results, frame.runner.results());
     release(frame);
-    results.timings.total += start.milliseconds();
+    results.timings.total += start.milliseconds() - (frame.runner.pipeline_milliseconds() - made);
 }
 
 void BatchRing::list_tiles(std::vector<TileReport>& tiles) const {

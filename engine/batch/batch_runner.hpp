@@ -94,6 +94,10 @@ public:
     /// The results of the last batch, until the next one starts: complete after collect(), except
     /// for their total time. May be swapped for other results, whose memory is then reused.
     [[nodiscard]] Results& results() { return results_; }
+    /// The time that making pipelines has taken so far.
+    [[nodiscard]] double pipeline_milliseconds() const {
+        return renderer_ == nullptr ? 0.0 : renderer_->pipeline_milliseconds();
+    }
     [[nodiscard]] const plan::Plan& plan() const { return plan_; }
     [[nodiscard]] std::span<const std::uint32_t> point_words() const {
         return decoder_.point_words();

@@ -163,8 +163,11 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
     for (PassTime& pass : timings.passes) {
         pass.milliseconds = 0.0;
     }
+    double pipelines = 0.0;
     if (buffers_ == nullptr || renderer_ != context_->renderer()->number()) {
+        const double made = context_->renderer()->pipeline_milliseconds();
         buffers_ = context_->renderer()->make_pair_buffers(question_);
+        pipelines = context_->renderer()->pipeline_milliseconds() - made;
         renderer_ = context_->renderer()->number();
         membership_ = 0;
     }
@@ -184,12 +187,12 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
     }
     if (instances_.size() > 1) {
         order_instances(instances);
-        timings.plan = total.milliseconds();
+        timings.plan = total.milliseconds() - pipelines;
         buffers_->begin(context_->renderer()->pair_search(question_.goal), shapes_,
                         context_->memory_limit(), timings);
     }
     set_submitted(true);
-    timings.total = total.milliseconds();
+    timings.total = total.milliseconds() - pipelines;
 }
 
 void DevicePairTableBase::State::finish() {

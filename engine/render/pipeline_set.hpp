@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/stopwatch.hpp>
 #include <engine/gpu/device.hpp>
 #include <nearfield/context.hpp>
 #include <passes/collect.hpp>
@@ -93,14 +94,23 @@ public:
     [[nodiscard]] const passes::PointSearch& point_search() const { return made(point_search_); }
     [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) const;
 
+    /// The time that making them has taken.
+    [[nodiscard]] double milliseconds() const { return milliseconds_; }
+
 private:
     template <class Passes, class... Arguments>
     const Passes& made(std::optional<Passes>& passes, Arguments... arguments) const {
-        return passes ? *passes : passes.emplace(*device_, *layout_, arguments...);
+        if (!passes) {
+            const Stopwatch start;
+            passes.emplace(*device_, *layout_, arguments...);
+            milliseconds_ += start.milliseconds();
+        }
+        return *passes;
     }
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
+    mutable double milliseconds_ = 0.0;
     mutable std::optional<ExportPipelines> exports_;
     mutable std::optional<RasterPipelines> raster_;
     mutable std::optional<passes::ResolvePoints> resolve_points_;

@@ -125,6 +125,7 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
                        const plan::ResidentOutputs& resident, plan::TileSize extent,
                        SampleRoom room, BatchResources& slot, Timings& timings) {
     const Stopwatch start;
+    const double made = pipeline_milliseconds();
     slot.upload(tile_batches, resident);
     last_had_fields_ = !resident.fields.empty();
     last_had_records_ = !resident.records.empty();
@@ -142,13 +143,14 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
         last_graph_ = on_device.graph;
     }
     slot.lay_out_output();
-    timings.plan += start.milliseconds();
+    timings.plan += start.milliseconds() - (pipeline_milliseconds() - made);
 }
 
 void Renderer::prepare_searches(const plan::SearchShapes& shapes,
                                 std::span<const plan::PointSearch> searches, SampleRoom room,
                                 BatchResources& slot, Timings& timings) {
     const Stopwatch start;
+    const double made = pipeline_milliseconds();
     last_had_searches_ = !searches.empty();
     if (last_had_searches_) {
         static_cast<void>(passes_.point_search());
@@ -159,7 +161,7 @@ void Renderer::prepare_searches(const plan::SearchShapes& shapes,
         }
         slot.upload_searches(shapes, searches, expected);
     }
-    timings.plan += start.milliseconds();
+    timings.plan += start.milliseconds() - (pipeline_milliseconds() - made);
 }
 
 void Renderer::submit(BatchResources& slot, const Submission& order, Timings& timings) {

@@ -51,6 +51,8 @@ public:
         last_pairs_ = goal;
         return passes_.pair_search(goal);
     }
+    /// The time that making pipelines has taken, which is in no other time.
+    [[nodiscard]] double pipeline_milliseconds() const { return passes_.milliseconds(); }
     /// Differs from that of every other renderer.
     [[nodiscard]] std::uint32_t number() const { return number_; }
 

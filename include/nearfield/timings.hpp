@@ -32,7 +32,8 @@ struct QueryTime {
 };
 
 /// The times of a batch, in milliseconds. Device and CPU work in parallel, so the parts may add up
-/// to more than the total.
+/// to more than the total. Pipelines that a call has to make (Settings::pipelines_on_demand) are in
+/// none of them; the log has their times.
 struct Timings {
     double localize = 0.0;  ///< hierarchies on the CPU
     double plan = 0.0;      ///< technique selection, simplification, meshes, atlas, upload

@@ -3,8 +3,10 @@
 #include <tests/query/host_table.hpp>
 #include <tests/query/query_test.hpp>
 
+#include <chrono>
 #include <map>
 #include <string>
+#include <thread>
 
 namespace nearfield::test {
 namespace {
@@ -221,6 +223,49 @@ TEST_F(TechniqueSettings, WithoutComputeLessPipelinesAreMadeAndTheRasterAnswers)
     EXPECT_GT(made_["vkCreateGraphicsPipelines"], 0);
     EXPECT_TRUE(status_by(context, Technique::raster).ok());
     EXPECT_EQ(status_by(context, Technique::compute).code(), StatusCode::unsupported_technique);
+}
+
+/// However long the driver takes.
+TEST_F(TechniqueSettings, PipelinesMadeOnDemandAreInNoTime) {
+    make_host();
+    constexpr double each = 20.0;  // milliseconds
+    int made = 0;
+    const HostDevice& device = watch([&](const test_support::WatchedCall& call) {
+        if (call.name == "vkCreateComputePipelines") {
+            ++made;
+            std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(each));
+        }
+    });
+    Context context = *Context::create(device, drawing());
+    const Shapes shapes(context);
+    const auto expect_without = [&](const auto& call) {
+        made = 0;
+        const auto start = std::chrono::steady_clock::now();
+        const Timings timings = call();
+        const std::chrono::duration<double, std::milli> whole =
+            std::chrono::steady_clock::now() - start;
+        EXPECT_GT(made, 5);
+        EXPECT_GE(whole.count() - timings.total, each * made);
+        EXPECT_LE(timings.plan, timings.total);
+    };
+    PenetrationQuery query{{shapes.a, {}}, {shapes.b, {}}, 0.1};
+    query.technique = Technique::compute;
+    expect_without([&] {
+        Batch batch;
+        batch.add(query);
+        Results results;
+        EXPECT_TRUE(context.run(batch, results).ok());
+        return results.timings;
+    });
+    World world = *World::create(context);
+    for (const ShapeHandle shape : {shapes.a, shapes.b}) {
+        EXPECT_TRUE(world.add({.shape = shape}).has_value());
+    }
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.1});
+    expect_without([&] {
+        EXPECT_TRUE(world.update(table).ok());
+        return table.timings();
+    });
 }
 
 TEST_F(TechniqueSettings, AutomaticChoosesAmongThoseThatAreThere) {
