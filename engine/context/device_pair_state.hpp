@@ -91,7 +91,7 @@ private:
     void list_instances(const char* call, const world::Instances& instances);
     void place(const world::Instances& instances, std::span<const std::uint32_t> numbers);
     void place_moved(const world::Instances& instances);
-    void place_shape(ShapeHandle shape);
+    void place_shape(ShapeHandle handle);
     [[nodiscard]] bool is_for_cpu(const geometry::Polygon& polygon) const;
     void place_all(const world::Instances& instances);
     void order_instances(const world::Instances& instances);

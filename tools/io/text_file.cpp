@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +20,7 @@ std::string to_utf8(std::string bytes, const std::string& name) {
         return bytes;
     }
     const iconv_t converter = iconv_open("UTF-8", "UTF-16");
-    if (converter == iconv_t(-1)) {
+    if (reinterpret_cast<std::intptr_t>(converter) == -1) {
         throw InputError(name + ": this system does not convert UTF-16; save the file as UTF-8");
     }
     std::string text(2 * bytes.size(), '\0');  // a unit of two bytes takes three at most
@@ -27,7 +28,7 @@ std::string to_utf8(std::string bytes, const std::string& name) {
     char* to = text.data();
     std::size_t from_left = bytes.size();
     std::size_t to_left = text.size();
-    const bool is_valid = iconv(converter, &from, &from_left, &to, &to_left) != std::size_t(-1);
+    const bool is_valid = iconv(converter, &from, &from_left, &to, &to_left) != SIZE_MAX;
     iconv_close(converter);
     if (!is_valid) {
         throw InputError(name + ": is not UTF-16, although it begins so: byte " +
