@@ -101,6 +101,23 @@ void write_bench_summary(std::ostream& stream, const Measurement& measurement, c
     write_timings_summary(stream, measurement.timings);
 }
 
+/// Of the frames of a scene.
+void add_frame_options(CLI::App& command, BenchArguments& arguments, CLI::Option* scene) {
+    add_count_option(command, "--frames", arguments.frames, {1, 1'000'000},
+                     "Frames that are measured; default 50")
+        ->type_name("COUNT")
+        ->needs(scene);
+    add_count_option(command, "--warmup", arguments.warm_up, {0, 1'000'000},
+                     "Frames before them that are not measured; default 5")
+        ->type_name("COUNT")
+        ->needs(scene);
+    command
+        .add_flag("--keep", arguments.keep,
+                  "Frames in which only poses change: the shapes are passed once, before the "
+                  "first one; default: every frame passes all vertices anew")
+        ->needs(scene);
+}
+
 }  // namespace
 
 CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
@@ -145,19 +162,7 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
         ->type_name("NAME")
         ->needs(scene);
     add_settings_options(*command, arguments.settings);
-    add_count_option(*command, "--frames", arguments.frames, {1, 1'000'000},
-                     "Frames that are measured; default 50")
-        ->type_name("COUNT")
-        ->needs(scene);
-    add_count_option(*command, "--warmup", arguments.warm_up, {0, 1'000'000},
-                     "Frames before them that are not measured; default 5")
-        ->type_name("COUNT")
-        ->needs(scene);
-    command
-        ->add_flag("--keep", arguments.keep,
-                   "Frames in which only poses change: the shapes are passed once, before the "
-                   "first one; default: every frame passes all vertices anew")
-        ->needs(scene);
+    add_frame_options(*command, arguments, scene);
     command
         ->add_option("--json", arguments.json,
                      "Write the times as JSON, milliseconds; - for the standard output, the "
