@@ -70,8 +70,9 @@ struct Settings {
     /// False: no timestamps are written and no query pool is made, so Timings::passes is empty.
     alignas(std::uint64_t) bool timestamps = true;  // begins a word: see read_versioned()
     /// False: the context makes all pipelines when it is created, and no later call makes any.
-    /// True: the first call that needs a pipeline makes it, and takes longer, as run(), submit(),
-    /// record() or World::update(); for a program that asks little and should start soon.
+    /// True: the first call that needs a pipeline makes it, and takes longer: run(), submit(),
+    /// record(), collect(), resident_layout(), World::update() or World::submit(). For a program
+    /// that asks few questions and should start quickly.
     alignas(std::uint64_t) bool pipelines_on_demand = false;  // likewise
 };
 

@@ -364,7 +364,7 @@ public:
     /// Does the first half of it: uploads what has changed, and lets the device begin. The second
     /// half is DevicePairTable::collect(); until then the table has no rows, and update() and
     /// submit() leave it alone and fail with not_ready. Instances and shapes may change meanwhile:
-    /// the table tells of them as they were. Otherwise likewise.
+    /// the table describes them as they were. Otherwise likewise.
     Status submit(DevicePairTableBase& table, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of

@@ -1,6 +1,7 @@
 #include <tools/io/geojson.hpp>
 #include <tools/io/input_error.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
@@ -163,44 +164,53 @@ void append_rings(const JsonPlace& coordinates, std::vector<Ring>& rings) {
 
 namespace {
 
-/// Separates the texts of a sequence, before each of them (RFC 8142).
+/// Stands before each text of a sequence (RFC 8142), which may be longer than a line.
 constexpr char record_separator = '\x1E';
 
-/// Whether the text is a sequence of JSON texts, one a line: what begins with a record separator,
-/// or whose first line is complete and not the last.
-bool is_sequence(const std::string& text) {
+/// What separates the JSON texts of a sequence: a record separator, if it begins with one, or line
+/// breaks, if its first line is complete and not the last. Zero for a single text.
+char separator_of(const std::string& text) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
-    if (first == std::string::npos || text[first] == record_separator) {
-        return first != std::string::npos;
+    if (first == std::string::npos) {
+        return '\0';
+    }
+    if (text[first] == record_separator) {
+        return record_separator;
     }
     const std::size_t end = text.find('\n', first);
-    return end != std::string::npos &&
-           text.find_first_not_of(" \t\r\n", end) != std::string::npos &&
-           json::accept(text.substr(first, end - first));
+    const bool has_lines =
+        end != std::string::npos && text.find_first_not_of(" \t\r\n", end) != std::string::npos;
+    return has_lines && json::accept(text.substr(first, end - first)) ? '\n' : '\0';
 }
 
-/// Reads a line of a sequence, unless it is blank.
-void read_line(const std::string& line, std::size_t number, const std::string& file,
-               GeojsonReader& reader) {
-    const std::size_t first = line.find_first_not_of(" \t\r\x1E");
-    if (first == std::string::npos) {
-        return;
+/// A text that begins on this line of the file.
+json parse_part(const std::string& part, std::size_t line, const std::string& file) {
+    try {
+        return parse_json(part, file);
+    } catch (const InputError&) {
+        // Line breaks are nothing to JSON; with them, the message names the place in the file.
+        return parse_json(std::string(line - 1, '\n') + part, file);
     }
-    const std::string text = std::string(first, ' ') + line.substr(first);
-    if (!json::accept(text)) {
-        // Line breaks are nothing to JSON; with them, the message names the line of the file.
-        static_cast<void>(parse_json(std::string(number - 1, '\n') + text, file));
-    }
-    const std::string place = file + ":" + std::to_string(number);
-    const json document = parse_json(text, place);
-    reader.read(JsonPlace(document, place));
 }
 
-void read_sequence(const std::string& text, const std::string& file, GeojsonReader& reader) {
+std::size_t lines_in(const std::string& text, std::size_t end) {
+    const auto begin = text.begin();
+    return static_cast<std::size_t>(
+        std::count(begin, begin + static_cast<std::ptrdiff_t>(end), '\n'));
+}
+
+void read_sequence(const std::string& text, char separator, const std::string& file,
+                   GeojsonReader& reader) {
     std::istringstream stream(text);
-    std::size_t number = 0;
-    for (std::string line; std::getline(stream, line);) {
-        read_line(line, ++number, file, reader);
+    std::size_t line = 1;
+    for (std::string part; std::getline(stream, part, separator);) {
+        const std::size_t first = part.find_first_not_of(" \t\r\n");
+        if (first != std::string::npos) {
+            const json document = parse_part(part, line, file);
+            const std::size_t its_line = line + lines_in(part, first);
+            reader.read(JsonPlace(document, file + ":" + std::to_string(its_line)));
+        }
+        line += lines_in(part, part.size()) + (separator == '\n' ? 1 : 0);
     }
 }
 
@@ -209,8 +219,8 @@ void read_sequence(const std::string& text, const std::string& file, GeojsonRead
 std::vector<Ring> parse_geojson(const std::string& text, const std::string& file,
                                 SkippedParts& skipped, std::vector<std::uint32_t>* part_sizes) {
     GeojsonReader reader(skipped);
-    if (is_sequence(text)) {
-        read_sequence(text, file, reader);
+    if (const char separator = separator_of(text); separator != '\0') {
+        read_sequence(text, separator, file, reader);
     } else {
         const json document = parse_json(text, file);
         reader.read(JsonPlace(document, file));

@@ -49,7 +49,8 @@ TEST(ToolsGeojson, SequencesHaveADocumentALine) {
     for (const std::string& text :
          {one + "\n" + feature, one + "\r\n\r\n" + feature + "\r\n\n",
           "\n" + feature + "\n  " + one, "\x1E" + one + "\n\x1E" + feature + "\n",
-          " \x1E" + one + "\n" + feature}) {
+          " \x1E\n{\n\"type\": \"Polygon\",\n\"coordinates\": " + triangle + "\n}\n\x1E" +
+              feature}) {
         EXPECT_EQ(parse_geojson(text, "f"), two) << text;
     }
     // One document, whose first line is not complete, or the last.
@@ -67,6 +68,12 @@ TEST(ToolsGeojson, RefusalsOfSequencesNameTheLine) {
     EXPECT_EQ(error_of(one + "\n{\"type\": \"Circle\"}").find("a.geojson:2: type: "), 0U)
         << error_of(one + "\n{\"type\": \"Circle\"}");
     EXPECT_EQ(error_of(one + "\n" + one + one).find("a.geojson:2:"), 0U);
+    const std::string longer = "\x1E{\n\"type\":\n\"Circle\"}\n\x1E\n\n";
+    EXPECT_EQ(error_of(longer).find("a.geojson:1: type: "), 0U) << error_of(longer);
+    EXPECT_EQ(error_of("\x1E" + one + "\n\x1E\n{\"type\": 1}").find("a.geojson:3: type: "), 0U)
+        << error_of("\x1E" + one + "\n\x1E\n{\"type\": 1}");
+    EXPECT_EQ(error_of("\x1E" + one + "\n\x1E{\n1}").find("a.geojson:3:1: "), 0U)
+        << error_of("\x1E" + one + "\n\x1E{\n1}");
     const std::string point = R"({"type": "Point", "coordinates": [1, 2]})";
     EXPECT_NE(error_of(point + "\n" + point).find("Point (2)"), std::string::npos);
 }
