@@ -154,10 +154,10 @@ def verdict(output, status):
 
 class Process:
     """A suite that is running. Its limit counts processor time, so that other work on the machine does
-    not end it; one that waits for ever is ended after ten times as long."""
+    not end it; one that waits for ever is ended after four times as long."""
 
     def __init__(self, suite, log, limit):
-        self.suite, self.limit = suite, 10.0 * limit
+        self.suite, self.limit = suite, 4.0 * limit
         seconds = int(limit) * os.cpu_count()
         self.log = open(log, "w+", errors="replace")
         self.begun = time.monotonic()
