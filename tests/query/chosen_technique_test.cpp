@@ -29,6 +29,7 @@ TEST_F(ChosenTechnique, AutomaticIsWhatCostsLeast) {
         SCOPED_TRACE(to_string(favourite));
         Settings settings;
         settings.costs = favouring(member);
+        settings.pipelines_on_demand = true;
         Expected<Context> made = Context::create(host_device(), settings);
         ASSERT_TRUE(made.has_value()) << made.error().text();
         Random random(seed);
@@ -71,6 +72,7 @@ TEST_F(ChosenTechnique, AutomaticIsWhatCostsLeast) {
 TEST_F(ChosenTechnique, AutomaticFieldsAreNotRefused) {
     Settings settings;
     settings.costs = favouring(&CostModel::compute);
+    settings.pipelines_on_demand = true;
     Expected<Context> made = Context::create(host_device(), settings);
     ASSERT_TRUE(made.has_value()) << made.error().text();
     const Expected<ShapeHandle> shape =

@@ -144,7 +144,9 @@ TEST(Threads, HaveContextsOnOneDeviceAndOneQueue) {
     host.queue_access.user = &queue;
     host.queue_access.lock = [](void* user) { static_cast<std::mutex*>(user)->lock(); };
     host.queue_access.unlock = [](void* user) { static_cast<std::mutex*>(user)->unlock(); };
-    expect_same_on_threads([&] { return Context::create(host); });
+    Settings settings;
+    settings.pipelines_on_demand = true;
+    expect_same_on_threads([&] { return Context::create(host, settings); });
 }
 
 TEST(Threads, HaveContextsOnDevicesOfTheirOwn) {

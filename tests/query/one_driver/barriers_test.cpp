@@ -43,7 +43,9 @@ const std::vector<Vector2> ring_b{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5,
 
 /// Runs a frame in a new context; returns its answers as numbers.
 std::vector<double> frame(const HostDevice& host, Technique technique) {
-    Expected<Context> context = Context::create(host);
+    Settings settings;
+    settings.pipelines_on_demand = true;
+    Expected<Context> context = Context::create(host, settings);
     EXPECT_TRUE(context.has_value()) << context.error().text();
     const Expected<ShapeHandle> a = context->add_shape({{ring_a}});
     const Expected<ShapeHandle> b = context->add_shape({{ring_b}});

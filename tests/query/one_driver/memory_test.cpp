@@ -24,6 +24,7 @@ protected:
     static Context with_memory(std::uint64_t mebibytes) {
         Settings settings;
         settings.memory_limit = mebibytes << 20U;
+        settings.pipelines_on_demand = true;
         Expected<Context> context = Context::create(host_device(), settings);
         EXPECT_TRUE(context.has_value()) << context.error().text();
         return std::move(*context);
