@@ -99,10 +99,50 @@ void TransformedInstances::clear() {
     begin_batch();
 }
 
+std::size_t TransformedInstances::room_of(const Entry& entry) {
+    const Polygon& polygon = entry.edges.placed.polygon();
+    return arrays_of(entry.edges.count) * length_of_arrays(polygon) / max_lanes;
+}
+
+std::size_t TransformedInstances::room_of_boxes(const Entry& entry) {
+    const std::size_t pieces = entry.end_piece - entry.first_piece;
+    const std::uint32_t lowest =
+        pieces > 0 ? static_cast<std::uint32_t>(pieces) : AabbTree::boxes_over(entry.edges.count);
+    return AabbTree::room(lowest) / max_lanes;
+}
+
+bool TransformedInstances::can_be_found(const Entry& entry) {
+    return !entry.is_nameless && entry.revision == entry.edges.placed.polygon().revision();
+}
+
+/// They share one memory, which is given up as a whole. Where everything moves, what is kept only
+/// costs time.
+bool TransformedInstances::keeps_small_ones() {
+    std::size_t used = 0;
+    std::size_t kept = 0;
+    std::size_t found = 0;  // of these
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        const Entry& entry = entries_[i];
+        if (entry.own || entry.first == nowhere) {
+            continue;
+        }
+        kept += i < kept_ ? 1 : 0;
+        if (entry.is_placed && can_be_found(entry)) {
+            found += i < kept_ ? 1 : 0;
+            used += room_of(entry) + (entry.first_boxes != nowhere ? room_of_boxes(entry) : 0);
+        }
+    }
+    if (kept > 0) {
+        keeping_.record(2 * found < kept);
+    }
+    return 2 * used > shared_.used && !keeping_.skip();
+}
+
 void TransformedInstances::begin_batch() {
-    const auto is_kept = [](const Entry& entry) {
-        return entry.own && entry.is_placed &&
-               entry.revision == entry.edges.placed.polygon().revision();
+    const bool keeps_small = keeps_small_ones();
+    const auto is_kept = [=](const Entry& entry) {
+        return (entry.own ? entry.is_placed : keeps_small && entry.first != nowhere) &&
+               can_be_found(entry);
     };
     for (Entry& entry : entries_) {
         if (entry.own && !is_kept(entry)) {
@@ -110,18 +150,25 @@ void TransformedInstances::begin_batch() {
             spare_.push_back(std::move(entry.own));
         }
     }
-    std::erase_if(entries_, std::not_fn(is_kept));
+    const bool are_all_kept = std::erase_if(entries_, std::not_fn(is_kept)) == 0;
+    kept_ = entries_.size();
     for (Entry& entry : entries_) {
         entry.is_placed = false;
     }
-    shared_.clear();
-    fill_slots();
+    if (!keeps_small) {
+        shared_.clear();
+    }
+    if (!are_all_kept) {
+        fill_slots();
+    }
 }
 
 void TransformedInstances::fill_slots() {
     std::fill(slots_.begin(), slots_.end(), empty_slot);
     for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-        slots_[slot_of(entries_[i].edges.placed.polygon(), entries_[i].pose)] = i;
+        if (!entries_[i].is_nameless) {
+            slots_[slot_of(entries_[i].edges.placed.polygon(), entries_[i].pose)] = i;
+        }
     }
 }
 
@@ -167,7 +214,7 @@ std::uint32_t TransformedInstances::find_or_add(const Polygon& polygon, const Po
     std::uint32_t& slot = slots_[slot_of(polygon, pose)];
     if (slot == empty_slot) {
         slot = static_cast<std::uint32_t>(entries_.size());
-        add(TransformedPolygon(polygon, pose), pose);
+        add(TransformedPolygon(polygon, pose), pose, false);
     }
     return slot;
 }
@@ -221,18 +268,28 @@ std::size_t TransformedInstances::grow(Entry& entry, std::size_t by) {
 }
 
 std::uint32_t TransformedInstances::place(const TransformedPolygon& placed) {
-    add(placed, {});
+    add(placed, {}, true);
     return static_cast<std::uint32_t>(entries_.size()) - 1;
 }
 
-void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose) {
+void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose,
+                               bool is_nameless) {
     const Polygon& polygon = placed.polygon();
-    Entry& entry = entries_.emplace_back(Entry{
-        pose, polygon.revision(), nullptr, true, nowhere, nowhere, 0, 0, false, {{}, placed, {}}});
+    Entry& entry = entries_.emplace_back(Entry{pose,
+                                               polygon.revision(),
+                                               nullptr,
+                                               true,
+                                               is_nameless,
+                                               nowhere,
+                                               nowhere,
+                                               0,
+                                               0,
+                                               false,
+                                               {{}, placed, {}}});
     TransformedEdges& edges = entry.edges;
     edges.count = polygon.size();
     if (is_small(edges)) {
-        entry.first = grow(entry, arrays_of(edges.count) * length_of_arrays(polygon) / max_lanes);
+        entry.first = grow(entry, room_of(entry));
         find_arrays(entry);
         edges.box = write_arrays(entry);
     } else {
@@ -276,7 +333,7 @@ void TransformedInstances::complete(std::uint32_t index) {
     const std::uint32_t count = entry.edges.count;
     const Polygon& polygon = entry.edges.placed.polygon();
     if (entry.first == nowhere) {
-        entry.first = grow(entry, arrays_of(count) * length_of_arrays(polygon) / max_lanes);
+        entry.first = grow(entry, room_of(entry));
         find_arrays(entry);
         static_cast<void>(write_arrays(entry));
     }
@@ -287,7 +344,7 @@ void TransformedInstances::complete(std::uint32_t index) {
         lowest = cut_into_pieces(entry, rings);
     }
     if (entry.first_boxes == nowhere) {
-        entry.first_boxes = grow(entry, AabbTree::room(lowest) / max_lanes);
+        entry.first_boxes = grow(entry, room_of_boxes(entry));
         find_arrays(entry);
     }
     double* const boxes = memory_of(entry).coordinates[entry.first_boxes].values;

@@ -60,9 +60,10 @@ class TransformedInstances {
 public:
     /// Forgets all instances.
     void clear();
-    /// Forgets all instances but those that have many edges and were placed since the last call:
-    /// if neither rings nor pose change, they are still there for the next batch. Precondition: all
-    /// polygons placed so far still exist.
+    /// Forgets instances with many edges that were not placed since the last call, and those with
+    /// few edges unless more than half of what is kept of them was: if rings and pose do not
+    /// change, an instance is still there for the next batch. Precondition: all polygons placed so
+    /// far still exist.
     void begin_batch();
     /// Returns the index of an instance, and transforms it if it is new. If it has many edges, only
     /// its box, rounding and magnitude are known until complete().
@@ -101,6 +102,7 @@ private:
         std::uint64_t revision;       // of the polygon
         std::unique_ptr<Memory> own;  // null: its arrays are in the memory that entries share
         bool is_placed;               // since the last batch began
+        bool is_nameless;             // no place() finds it
         std::size_t first;            // of its arrays, which are consecutive
         std::size_t first_boxes;      // `nowhere`, like the arrays, until they exist
         std::size_t first_piece;      // of its pieces, if any
@@ -112,7 +114,13 @@ private:
     [[nodiscard]] static bool is(const Entry& entry, const geometry::Polygon& polygon,
                                  const Pose& pose);
     [[nodiscard]] std::uint32_t find_or_add(const geometry::Polygon& polygon, const Pose& pose);
-    void add(const geometry::TransformedPolygon& placed, const Pose& pose);
+    void add(const geometry::TransformedPolygon& placed, const Pose& pose, bool is_nameless);
+    /// The number of vectors that the arrays of an entry take, and its boxes, once it has pieces.
+    [[nodiscard]] static std::size_t room_of(const Entry& entry);
+    [[nodiscard]] static std::size_t room_of_boxes(const Entry& entry);
+    /// Whether a place() may find it again.
+    [[nodiscard]] static bool can_be_found(const Entry& entry);
+    [[nodiscard]] bool keeps_small_ones();
     /// Cuts the rings of an entry into pieces, in this order; returns their number.
     [[nodiscard]] std::uint32_t cut_into_pieces(Entry& entry, std::span<const std::uint32_t> rings);
     /// Writes the arrays of an entry, whose space is allocated; returns its bounding box.
@@ -129,6 +137,8 @@ private:
     [[nodiscard]] std::size_t grow(Entry& entry, std::size_t by);
 
     std::vector<Entry> entries_;
+    std::size_t kept_ = 0;  // of the entries, those of the batch before, which come first
+    SearchTrials keeping_;  // small ones
     Memory shared_;
     std::vector<std::unique_ptr<Memory>> spare_;  // of former entries
     MortonOrder morton_order_;

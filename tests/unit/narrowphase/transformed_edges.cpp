@@ -294,5 +294,83 @@ TEST(TransformedInstances, ArePlacedOncePerPose) {
     }
 }
 
+/// Any sequence of batches in which shapes, poses or neither change: what is kept is what would be
+/// made, and what is kept is bounded.
+TEST(TransformedInstances, AreTheSameHoweverManyAreKept) {
+    samples::Random random(81);
+    std::vector<Polygon> polygons(6);
+    const auto change = [&](Polygon& polygon) {
+        const std::uint32_t size = 3 + random.below(298);
+        const std::vector<Ring> rings{samples::star(random, size, 0.4, 1.0)};
+        ASSERT_TRUE(polygon.assign(rings).ok());
+    };
+    std::for_each(polygons.begin(), polygons.end(), change);
+    struct Placed {
+        std::size_t polygon;
+        Pose pose;
+    };
+    const auto any = [&]() -> Placed {
+        return {random.below(6), {{random.between(-9.0, 9.0), 0.0}, random.between(-4.0, 4.0)}};
+    };
+    std::vector<Placed> batch(40);
+    std::generate(batch.begin(), batch.end(), any);
+    simd::TransformedInstances kept;
+    std::size_t most_bytes = 0;
+    for (int number = 0; number < 300; ++number) {
+        SCOPED_TRACE(number);
+        kept.begin_batch();
+        const std::uint32_t changed = random.below(random.below(5) == 0 ? 41 : 4);
+        for (std::uint32_t i = 0; i < changed; ++i) {
+            batch[random.below(40)] = any();
+        }
+        if (random.below(10) == 0) {
+            change(polygons[random.below(6)]);
+        }
+        simd::TransformedInstances fresh;
+        for (const Placed& one : batch) {
+            const Polygon& polygon = polygons[one.polygon];
+            const std::uint32_t in_kept = kept.place(polygon, one.pose);
+            const std::uint32_t in_fresh = fresh.place(polygon, one.pose);
+            if (random.below(2) == 0) {
+                kept.complete(in_kept);
+            }
+            const simd::TransformedEdges& found = kept[in_kept];
+            const simd::TransformedEdges& truth = fresh[in_fresh];
+            ASSERT_EQ(&found.placed.polygon(), &polygon);
+            ASSERT_EQ(found.count, truth.count);
+            ASSERT_TRUE(found.box.isApprox(truth.box, 0.0));
+            ASSERT_EQ(found.rounding, truth.rounding);
+            ASSERT_EQ(found.magnitude, truth.magnitude);
+            for (std::uint32_t edge = 0; simd::is_small(found) && edge < found.count; ++edge) {
+                ASSERT_EQ(found.start(edge), truth.start(edge));
+                ASSERT_EQ(found.end(edge), truth.end(edge));
+            }
+        }
+        if (number == 20) {
+            most_bytes = 4 * kept.bytes();
+        }
+    }
+    EXPECT_LT(kept.bytes(), most_bytes);
+}
+
+TEST(TransformedInstances, AreKeptWhileHalfOfThemAreUsed) {
+    samples::Random random(82);
+    const Polygon polygon = samples::polygon({samples::star(random, 12, 0.3, 1.0)});
+    simd::TransformedInstances instances;
+    const auto place = [&](std::uint32_t first, std::uint32_t count) {
+        instances.begin_batch();
+        std::uint32_t index = 0;
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            index = instances.place(polygon, {{0.5 * i, 0.0}, 0.0});
+        }
+        return index;
+    };
+    EXPECT_EQ(place(0, 100), 99U);
+    EXPECT_EQ(place(49, 51), 99U);
+    EXPECT_EQ(place(0, 100), 99U);  // the first ones are still there
+    EXPECT_EQ(place(50, 50), 99U);
+    EXPECT_EQ(place(98, 2), 1U);  // half is too few: they are made anew
+}
+
 }  // namespace
 }  // namespace nearfield::narrowphase
