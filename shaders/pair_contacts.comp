@@ -92,7 +92,7 @@ void main() {
         uvec2 of_a = records_of(direction);
         of_b = records_of(reverse);
         count = count_of(direction, reverse, of_a, of_b);
-        scratch_units[unit] = uvec4(of_a, 0u, count);
+        scratch_units[unit] = uvec4(of_a, no_deepest, count);
     }
     uint before = sum_before(count != 0u ? 1u : 0u, push.row_blocks + direction / search_block);
     if (exists) {

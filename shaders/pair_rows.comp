@@ -31,11 +31,12 @@ void main() {
         return;
     }
     uvec4 about = direction_unit(direction, 3u);
-    uvec4 deepest = summary.y > 0u ? records[summary.z] : uvec4(0u);
+    bool has_deepest = summary.y > 0u && summary.z != no_deepest;
+    uvec4 deepest = has_deepest ? records[summary.z] : uvec4(0u);
     uint unit = units_of_row * (target + 1u);
     rows[unit] = uvec4(about.z, about.w, summary.w, summary.x);
     rows[unit + 1u] = uvec4(summary.y, deepest.y, deepest.z, deepest.w);
-    rows[unit + 2u] = uvec4(place.y, place.z, 0u, 0u);
+    rows[unit + 2u] = uvec4(place.y, place.z, summary.z, 0u);
     if ((summary.w & row_undecided) != 0u) {
         uint first = 4u * units_of_row * (push.capacity + 1u);
         row_words[first + atomicAdd(row_words[0], 1u)] = target;

@@ -31,12 +31,29 @@ struct SearchInstanceData {
     uint parts NEARFIELD_DEFAULT(no_parts);
     uint category NEARFIELD_DEFAULT(0);  // see WorldInstance
     uint mask NEARFIELD_DEFAULT(0);
-    uint left_to_cpu NEARFIELD_DEFAULT(0);   // 1: the CPU answers its pairs
-    float rounding NEARFIELD_DEFAULT(0.0F);  // of its vertices in double precision; 0: no matter
-    uint unused[2] NEARFIELD_DEFAULT({});
+    // Not 0: the CPU answers its pairs, because of its shape or of its place
+    uint left_to_cpu NEARFIELD_DEFAULT(0);
+    // Of its vertices: what is not known to the precision that pairs count on; 0: no matter
+    float rounding NEARFIELD_DEFAULT(0.0F);
+    uint element NEARFIELD_DEFAULT(0);  // of the host's poses
+    uint unused[1] NEARFIELD_DEFAULT({});
 };
 const uint units_of_instance = 4u;
 NEARFIELD_CHECK(sizeof(SearchInstanceData) == 16 * units_of_instance)
+
+const uint left_by_shape = 1u;  // bits of SearchInstanceData::left_to_cpu
+const uint left_by_place = 2u;
+
+// Poses in a buffer of the host's, of which each instance has one: x, y, cosine and sine. The
+// device takes them down for the CPU, one unit per instance, behind a unit whose first word is the
+// first instance without a usable pose, or no_instance.
+const uint no_instance = 0xffffffffu;
+// By how much the square of the length of (cosine, sine) may differ from 1.
+NEARFIELD_FLOAT allowed_stretch = 1.0 / 64.0;
+// Bound on the errors of turning a shape in a dozen operations, of its radius and its centre.
+NEARFIELD_FLOAT rounding_of_turn = 1.0 / 1048576.0;
+// Bound on the errors of the CPU's double precision, of the coordinates.
+NEARFIELD_FLOAT rounding_of_place = 1.0 / 140737488355328.0;
 
 // A pair that has penetrating points or contacts, or intersects, or whose answer the CPU has to
 // decide.
@@ -53,8 +70,11 @@ struct PairRowData {
     // Contacts: those of B that were found
     uint first_of_b NEARFIELD_DEFAULT(0);
     uint count_of_b NEARFIELD_DEFAULT(0);
-    uint unused[2] NEARFIELD_DEFAULT({});
+    uint deepest NEARFIELD_DEFAULT(0);  // penetrations: the number of its record; contacts: no_deepest
+    uint unused[1] NEARFIELD_DEFAULT({});
 };
+const uint no_deepest = 0xffffffffu;
+const uint words_between_headers = 64u;  // of what stays on the device: a multiple of any alignment
 const uint units_of_row = 3u;
 NEARFIELD_CHECK(sizeof(PairRowData) == 16 * units_of_row)
 

@@ -145,6 +145,20 @@ struct SearchPush {
     uint verdicts;          // first word: by pair, what is known of their boundaries
 };
 
+struct PosePush {
+    uint first;  // instance of this dispatch
+    uint instances;
+    uint stride;     // words from one of the host's poses to the next
+    float largest;   // position that is allowed
+    float origin;    // of the positions: its largest coordinate
+    float farthest;  // beyond it coordinates are too coarse for the tolerance
+};
+
+struct ExportPairsPush {
+    uint capacities[6];  // by stage of the search
+    vec2 origin;
+};
+
 struct ExportFieldPush {
     uint value;    // word of the first cell's value
     uint feature;  // word of its feature

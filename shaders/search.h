@@ -19,7 +19,9 @@ const uint max_levels = 8u;
 // edge, eight per chunk), and its first word of infos: of each chunk, its first edge << 4 | its
 // number of edges; then, of each place along the rings, its chunk.
 const uint unit_of_box = 1u;
-const uint unit_of_rings = 2u;        // their number, and the first word of their first chunks
+// Their number, and the first word of their first chunks; then the shape's centre, in the frame of
+// its vertices.
+const uint unit_of_rings = 2u;
 const uint unit_of_first_boxes = 3u;  // a word per level: its first unit
 const uint units_of_header = unit_of_first_boxes + max_levels / 4u;
 

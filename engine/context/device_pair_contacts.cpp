@@ -50,7 +50,7 @@ bool DevicePairTableBase::State::do_intersect(const plan::PairRowData& data) {
 
 void DevicePairTableBase::State::row(std::uint32_t index, PairRow<ContactQuery>& row) {
     const std::uint32_t number = device_row("row", index);
-    const plan::PairRowData& data = buffers_->rows()[number];
+    const plan::PairRowData& data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<ContactResult>(*decided));
         return;
@@ -72,13 +72,13 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<ContactQuery>&
 void DevicePairTableBase::State::records(std::uint32_t index, std::vector<ContactRecord>& records) {
     require_records();
     const std::uint32_t number = device_row("records", index);
-    std::swap(records, contacts_of(buffers_->rows()[number], number).records);
+    std::swap(records, contacts_of(pair_of(number), number).records);
 }
 
 void DevicePairTableBase::State::manifold(std::uint32_t index,
                                           std::vector<ContactCluster>& manifold) {
     const std::uint32_t number = device_row("manifold", index);
-    std::swap(manifold, contacts_of(buffers_->rows()[number], number).manifold);
+    std::swap(manifold, contacts_of(pair_of(number), number).manifold);
 }
 
 }  // namespace nearfield

@@ -47,10 +47,12 @@ double median(std::vector<Vector2>& places, double Vector2::*coordinate) {
 void DevicePairTableBase::State::list_instances(const char* call,
                                                 const world::Instances& instances) {
     indices_.clear();
+    elements_ = 0;
     for (std::uint32_t index = 0; index < instances.size(); ++index) {
         if (instances.is_present(index) &&
             context_->shapes().find(instances[index].shape) != nullptr) {
             indices_.push_back(index);
+            elements_ = index + 1;
         }
     }
     if (indices_.size() > plan::max_instances) {
@@ -86,13 +88,14 @@ void DevicePairTableBase::State::place(const world::Instances& instances,
         plan::SearchInstanceData data = shape.data;
         data.category = instance.category;
         data.mask = instance.mask;
+        data.element = index;
         const auto [place, magnitude] =
             plan::set_place(*shape.polygon, instance.pose, turns[i], origin_, data);
         entry.place = place;
         data.rounding = has_tolerance ? 0.0F : plan::rounding_at(magnitude);
         const bool is_resolved =
             !has_tolerance || question_.tolerance >= plan::smallest_tolerance(magnitude);
-        data.left_to_cpu |= is_resolved ? 0U : 1U;
+        data.left_to_cpu |= is_resolved ? 0U : plan::left_by_place;
         buffers_->set_instance(numbers[i], data);
     }
 }
@@ -144,7 +147,7 @@ void DevicePairTableBase::State::place_shape(ShapeHandle handle) {
     const geometry::Polygon& polygon = *context_->shapes().hold(handle, held_);
     const bool is_left_to_cpu = is_for_cpu(polygon);
     shape.data = plan::data_of_shape(polygon);
-    shape.data.left_to_cpu = is_left_to_cpu ? 1 : 0;
+    shape.data.left_to_cpu = is_left_to_cpu ? plan::left_by_shape : 0;
     shape.data.shape = shapes_.place(polygon);
     shape.data.parts = question_.samples && !is_left_to_cpu
                            ? shapes_.place_parts(polygon, question_.cell)
@@ -168,7 +171,9 @@ void DevicePairTableBase::State::place_all(const world::Instances& instances) {
         places_.push_back(geometry::to_public(
             TransformedPolygon(*polygon_of(instance.shape), instance.pose).translation()));
     }
-    origin_ = {median(places_, &Vector2::x), median(places_, &Vector2::y)};
+    are_poses_taken_ = false;
+    origin_ = poses_ ? geometry::to_vector(poses_->origin)
+                     : Vector{median(places_, &Vector2::x), median(places_, &Vector2::y)};
     place_moved(instances);
     plan::PairQueryData all;
     all.cell = static_cast<float>(cell);
@@ -179,6 +184,11 @@ void DevicePairTableBase::State::place_all(const world::Instances& instances) {
     all.is_test = question_.goal == plan::PairGoal::tests ? 1 : 0;
     all.is_once = question_.is_once ? 1 : 0;
     buffers_->set_query(all);
+    order_soon();
+}
+
+/// The next call of order_instances() does.
+void DevicePairTableBase::State::order_soon() {
     updates_in_order_ = max_updates_in_order;
 }
 
@@ -189,12 +199,19 @@ void DevicePairTableBase::State::order_instances(const world::Instances& instanc
     updates_in_order_ = 1;
     places_.clear();
     double radii = 0.0;
-    for (const PairInstance& entry : instances_) {
+    for (std::uint32_t number = 0; number < instances_.size(); ++number) {
+        if (are_poses_taken_) {
+            take_pose(number);
+        }
+        const PairInstance& entry = instances_[number];
         places_.push_back(geometry::to_public(entry.place));
         radii += polygon_of(entry.instance.shape)->radius();
     }
     buffers_->set_order(hilbert_order_.sort(
         places_.size(), [this](std::size_t i) -> const Vector2& { return places_[i]; }));
+    if (poses_) {
+        return;  // the host says what their origin is
+    }
     const Vector middle{median(places_, &Vector2::x), median(places_, &Vector2::y)};
     if (middle.norm() > max_radii_from_origin * radii / static_cast<double>(instances_.size())) {
         origin_ += middle;

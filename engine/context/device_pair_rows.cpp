@@ -35,6 +35,12 @@ const Timings& DevicePairTableBase::timings() const noexcept {
     return state_->timings;
 }
 
+Expected<ResidentPairs> DevicePairTableBase::resident() const {
+    ResidentPairs pairs;
+    Status status = catch_to_status([&] { pairs = state_->resident(); });
+    return status.ok() ? Expected<ResidentPairs>(pairs) : status;
+}
+
 Status DevicePairTableBase::read(std::uint32_t index, PairRow<PenetrationQuery>& row) {
     return catch_to_status([&] { state_->row(index, row); });
 }
@@ -83,6 +89,18 @@ DevicePairTableBase::State::~State() {
     }
 }
 
+ResidentPairs DevicePairTableBase::State::resident() const {
+    if (!question_.resident) {
+        refuse("resident", "the table's query does without results that stay on the device");
+    }
+    if (buffers_ == nullptr || instances_.size() < 2) {
+        throw StatusException({StatusCode::not_ready,
+                               "resident: no pairs were searched; the table was not submitted, or "
+                               "there were fewer than two instances"});
+    }
+    return buffers_->outputs().pairs();
+}
+
 std::uint32_t DevicePairTableBase::State::candidates() const {
     const bool has_searched = buffers_ != nullptr && instances_.size() > 1 && !is_submitted_;
     return has_searched ? buffers_->counts()[plan::pair_total] : 0;
@@ -111,6 +129,9 @@ AnyQuery DevicePairTableBase::State::query_on_cpu(const plan::PairRowData& data,
     std::visit(
         [&](auto& query) {
             query.technique = Technique::cpu;
+            if constexpr (requires { query.resident; }) {
+                query.resident = false;
+            }
             if constexpr (requires { query.a, query.b; }) {
                 query.a = instances_[data.a].instance;
                 query.b = instances_[data.b].instance;
@@ -157,6 +178,9 @@ void DevicePairTableBase::State::begin(const plan::PairRowData& data) {
     points.outside = question_.reach > 0.0;
     points.margin =
         plan::margin_of_pair(a.place, planned.a->radius(), b.place, planned.b->radius());
+    if (poses_) {
+        points.margin += 2.0 * (rounding_of(a) + rounding_of(b));
+    }
 }
 
 void DevicePairTableBase::State::add_point(const plan::FoundPointData& found,
@@ -177,7 +201,7 @@ void DevicePairTableBase::State::add_points(std::uint32_t first, std::uint32_t c
 
 void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
     const std::uint32_t number = device_row("row", index);
-    const plan::PairRowData& data = buffers_->rows()[number];
+    const plan::PairRowData& data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<PenetrationResult>(*decided));
         return;
@@ -200,7 +224,7 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQue
 
 void DevicePairTableBase::State::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
     const std::uint32_t number = device_row("row", index);
-    const plan::PairRowData& data = buffers_->rows()[number];
+    const plan::PairRowData& data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<IntersectionTestResult>(*decided));
         return;
@@ -221,7 +245,7 @@ void DevicePairTableBase::State::records(std::uint32_t index,
                                          std::vector<PenetrationRecord>& records) {
     require_records();
     const std::uint32_t number = device_row("records", index);
-    const plan::PairRowData& data = buffers_->rows()[number];
+    const plan::PairRowData& data = pair_of(number);
     if (find_decided(number) != nullptr) {
         records = std::get<PenetrationResult>(answer_on_cpu(data, true)).records;
         return;

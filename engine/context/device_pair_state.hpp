@@ -13,10 +13,12 @@
 #include <engine/render/pair_search_buffers.hpp>
 #include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
+#include <nearfield/device_poses.hpp>
 #include <nearfield/world_device.hpp>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,11 +32,15 @@ struct DevicePairTableBase::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    /// Bring the rows up to date with a world, at once or in two halves. `identity`: of the world.
-    void update(Context::Implementation& with, const std::shared_ptr<const void>& identity,
-                const world::Instances& instances);
-    void submit(Context::Implementation& with, const std::shared_ptr<const void>& identity,
-                const world::Instances& instances);
+    /// A world, and where the poses of its instances are.
+    struct Source {
+        const std::shared_ptr<const void>& identity;  // of the world
+        const world::Instances& instances;
+        const DevicePoses* poses = nullptr;  // of the host; null: the instances' own
+    };
+    /// Bring the rows up to date with a world, at once or in two halves.
+    void update(Context::Implementation& with, const Source& source);
+    void submit(Context::Implementation& with, const Source& source);
     void collect();
     [[nodiscard]] bool is_ready() const {
         return is_submitted_ && (buffers_ == nullptr || buffers_->is_done());
@@ -52,6 +58,7 @@ struct DevicePairTableBase::State {
     std::uint32_t rows = 0;
     Timings timings;
 
+    [[nodiscard]] ResidentPairs resident() const;
     [[nodiscard]] std::uint32_t candidates() const;
     [[nodiscard]] std::uint32_t left_to_cpu() const {
         return static_cast<std::uint32_t>(decided_.size());
@@ -59,7 +66,8 @@ struct DevicePairTableBase::State {
 
 private:
     static constexpr std::uint64_t not_placed = UINT64_MAX;
-    /// An instance as the last update found it. Its number is its place among all.
+    /// An instance as the last update found it. Its number is its place among all. A pose of the
+    /// host's is taken when it is needed (pair_of()).
     struct PairInstance {
         Instance instance;
         InstanceHandle handle;
@@ -84,8 +92,16 @@ private:
     void run_or_start_anew(Context::Implementation& context, const Action& action);
     void require_collected(const char* call) const;
     /// Lets the device begin. `call`: for messages.
-    void start(const char* call, Context::Implementation& with,
-               const std::shared_ptr<const void>& identity, const world::Instances& instances);
+    void start(const char* call, Context::Implementation& with, const Source& source);
+    void set_poses(const DevicePoses* poses);
+    /// Says where the device finds the host's poses. `call`: for messages.
+    void find_poses(const char* call);
+    /// What the device has found out about a pair; the poses of both instances are taken.
+    [[nodiscard]] const plan::PairRowData& pair_of(std::uint32_t device_row);
+    void take_pose(std::uint32_t number);
+    void require_usable_poses();
+    /// What the device has lost where it took the pose of an instance.
+    [[nodiscard]] double rounding_of(const PairInstance& entry) const;
     void finish();
     void check(const char* call) const;
     void list_instances(const char* call, const world::Instances& instances);
@@ -95,6 +111,7 @@ private:
     [[nodiscard]] bool is_for_cpu(const geometry::Polygon& polygon) const;
     void place_all(const world::Instances& instances);
     void order_instances(const world::Instances& instances);
+    void order_soon();
     [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
     [[nodiscard]] bool is_hit(const AnyResult& answer, const plan::PairRowData& data) const;
     void decide();
@@ -110,7 +127,7 @@ private:
     template <class Query>
     void row_of_cpu(std::uint32_t index, PairRow<Query>& row) {
         const std::uint32_t number = device_row("row", index);
-        const plan::PairRowData& data = buffers_->rows()[number];
+        const plan::PairRowData& data = pair_of(number);
         const AnyResult* const decided = find_decided(number);
         const AnyResult& answer = decided != nullptr ? *decided : answer_on_cpu(data, false);
         fill(row, data, std::get<typename Query::Result>(answer));
@@ -137,6 +154,8 @@ private:
     const AnyQuery query_;
     const plan::PairQuestion question_;  // that it asks of the device
     geometry::Vector origin_ = geometry::Vector::Zero();
+    std::optional<DevicePoses> poses_;  // of the host
+    bool are_poses_taken_ = false;      // by the device, of the present instances
     records::PointResolver resolver_;
     Context::Implementation* context_ = nullptr;
     std::weak_ptr<const void> world_;
@@ -145,6 +164,7 @@ private:
     batch::ShapeStore::Held held_;
     std::vector<PairInstance> instances_;  // in the order in which they were added
     std::vector<std::uint32_t> indices_;   // of these in the world
+    std::uint32_t elements_ = 0;           // of the host's poses: all indices are below it
     std::vector<PairShape> pair_shapes_;   // by the index of a shape's handle
     std::uint64_t membership_ = 0;         // of the world, at the last update
     std::uint64_t shapes_revision_ = 0;

@@ -30,13 +30,13 @@ void DevicePairTableBase::State::check(const char* call) const {
         [&]<class Query>(Query asked) {
             bool is_asked =
                 asked.technique == Technique::compute || asked.technique == Technique::automatic;
-            if constexpr (requires { asked.resident; }) {
-                is_asked = is_asked && !asked.resident;
+            if constexpr (requires { asked.target; }) {
+                is_asked = is_asked && asked.target == nullptr;
             }
             if (!is_asked) {
                 refuse(call,
-                       "the device finds these pairs by Technique::compute; the table's query "
-                       "asks for another technique, or for resident results");
+                       "the device finds these pairs by Technique::compute, in memory of its own; "
+                       "the table's query asks for another technique, or names a target");
             }
             if constexpr (requires { asked.normals; }) {
                 if (asked.normals == ContactNormals::gradient) {
@@ -122,7 +122,7 @@ void DevicePairTableBase::State::decide() {
     const std::span<const std::uint32_t> undecided = buffers_->undecided();
     cpu_queries_.clear();
     for (const std::uint32_t i : undecided) {
-        cpu_queries_.emplace_back(query_on_cpu(buffers_->rows()[i], false));
+        cpu_queries_.emplace_back(query_on_cpu(pair_of(i), false));
     }
     context_->ring().answer(
         cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, decided_results_);
@@ -147,14 +147,15 @@ void DevicePairTableBase::State::decide() {
 }
 
 void DevicePairTableBase::State::start(const char* call, Context::Implementation& with,
-                                       const std::shared_ptr<const void>& identity,
-                                       const world::Instances& instances) {
+                                       const Source& source) {
     const Stopwatch total;
-    if (context_ != &with || world_.lock() != identity) {
+    const world::Instances& instances = source.instances;
+    if (context_ != &with || world_.lock() != source.identity) {
         start_anew();
         context_ = &with;
-        world_ = identity;
+        world_ = source.identity;
     }
+    set_poses(source.poses);
     check(call);
     rows = 0;
     decided_.clear();
@@ -163,12 +164,11 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
     for (PassTime& pass : timings.passes) {
         pass.milliseconds = 0.0;
     }
-    double pipelines = 0.0;
-    if (buffers_ == nullptr || renderer_ != context_->renderer()->number()) {
-        const double made = context_->renderer()->pipeline_milliseconds();
-        buffers_ = context_->renderer()->make_pair_buffers(question_);
-        pipelines = context_->renderer()->pipeline_milliseconds() - made;
-        renderer_ = context_->renderer()->number();
+    render::Renderer& renderer = *context_->renderer();
+    const double made = renderer.pipeline_milliseconds();
+    if (buffers_ == nullptr || renderer_ != renderer.number()) {
+        buffers_ = renderer.make_pair_buffers(question_);
+        renderer_ = renderer.number();
         membership_ = 0;
     }
     const bool is_same =
@@ -185,11 +185,19 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
         membership_ = instances.membership();
         shapes_revision_ = context_->shapes().revision();
     }
+    find_poses(call);
+    const passes::ExportPairs* const exports =
+        question_.resident ? &renderer.export_pairs() : nullptr;
+    const double pipelines = renderer.pipeline_milliseconds() - made;
     if (instances_.size() > 1) {
         order_instances(instances);
+        if (exports != nullptr) {
+            buffers_->outputs().set(*exports, origin_);
+        }
         timings.plan = total.milliseconds() - pipelines;
-        buffers_->begin(context_->renderer()->pair_search(question_.goal), shapes_,
-                        context_->memory_limit(), timings);
+        renderer.note_pairs(question_.goal, poses_.has_value(), question_.resident);
+        buffers_->begin(renderer.pair_search(question_.goal), shapes_, context_->memory_limit(),
+                        timings);
     }
     set_submitted(true);
     timings.total = total.milliseconds() - pipelines;
@@ -199,6 +207,7 @@ void DevicePairTableBase::State::finish() {
     const Stopwatch total;
     if (instances_.size() > 1) {
         buffers_->finish(timings);
+        require_usable_poses();
         rows = buffers_->counts()[plan::row_total];
         decide();
     }
@@ -224,21 +233,17 @@ void DevicePairTableBase::State::require_collected(const char* call) const {
     }
 }
 
-void DevicePairTableBase::State::update(Context::Implementation& with,
-                                        const std::shared_ptr<const void>& identity,
-                                        const world::Instances& instances) {
+void DevicePairTableBase::State::update(Context::Implementation& with, const Source& source) {
     require_collected("update");
     run_or_start_anew(with, [&] {
-        start("update", with, identity, instances);
+        start("update", with, source);
         finish();
     });
 }
 
-void DevicePairTableBase::State::submit(Context::Implementation& with,
-                                        const std::shared_ptr<const void>& identity,
-                                        const world::Instances& instances) {
+void DevicePairTableBase::State::submit(Context::Implementation& with, const Source& source) {
     require_collected("submit");
-    run_or_start_anew(with, [&] { start("submit", with, identity, instances); });
+    run_or_start_anew(with, [&] { start("submit", with, source); });
 }
 
 void DevicePairTableBase::State::collect() {
@@ -248,20 +253,28 @@ void DevicePairTableBase::State::collect() {
     run_or_start_anew(*context_, [&] { finish(); });
 }
 
-void World::Implementation::update(DevicePairTableBase& table) {
-    table.state_->update(*context_, identity_, instances_);
+void World::Implementation::update(DevicePairTableBase& table, const DevicePoses* poses) {
+    table.state_->update(*context_, {identity_, instances_, poses});
 }
 
-void World::Implementation::submit(DevicePairTableBase& table) {
-    table.state_->submit(*context_, identity_, instances_);
+void World::Implementation::submit(DevicePairTableBase& table, const DevicePoses* poses) {
+    table.state_->submit(*context_, {identity_, instances_, poses});
 }
 
 Status World::update(DevicePairTableBase& table, const Limits& limits) {
-    return catch_within(limits, [&] { implementation_->update(table); });
+    return catch_within(limits, [&] { implementation_->update(table, nullptr); });
 }
 
 Status World::submit(DevicePairTableBase& table, const Limits& limits) {
-    return catch_within(limits, [&] { implementation_->submit(table); });
+    return catch_within(limits, [&] { implementation_->submit(table, nullptr); });
+}
+
+Status World::update(DevicePairTableBase& table, const DevicePoses& poses, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table, &poses); });
+}
+
+Status World::submit(DevicePairTableBase& table, const DevicePoses& poses, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->submit(table, &poses); });
 }
 
 Status DevicePairTableBase::collect(const Limits& limits) {

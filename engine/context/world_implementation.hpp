@@ -60,8 +60,9 @@ public:
     void update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
                 std::span<const Pose> ends);
 
-    void update(DevicePairTableBase& table);
-    void submit(DevicePairTableBase& table);
+    /// `poses`: of the host; null: the world's.
+    void update(DevicePairTableBase& table, const DevicePoses* poses);
+    void submit(DevicePairTableBase& table, const DevicePoses* poses);
 
     [[nodiscard]] std::uint64_t bytes() const;
     void trim();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace nearfield::plan {
@@ -11,6 +12,7 @@ namespace {
 constexpr std::string_view signed_distance_name = "the target's image for the signed distance";
 constexpr std::string_view feature_name = "the target's image for the feature";
 constexpr std::string_view buffer_name = "the target's buffer";
+constexpr std::string_view poses_name = "the buffer of the poses";
 
 struct Layout {
     VkImageLayout layout{};
@@ -145,6 +147,21 @@ Status check_size(const ResidentImageTarget& target, std::string_view name, std:
                              size_text(width, height) + " cells");
 }
 
+/// Of a storage buffer. `used`: "written".
+Status check_place(std::string_view name, VkBufferUsageFlags usage, const char* used,
+                   std::uint64_t offset, std::uint64_t offset_alignment) {
+    if ((usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) == 0) {
+        return refused(name, "was created with the usage " + hexadecimal(usage) +
+                                 ", which lacks VK_BUFFER_USAGE_STORAGE_BUFFER_BIT");
+    }
+    return offset % offset_alignment == 0
+               ? Status()
+               : refused(name, std::string("is to be ") + used + " at the offset " +
+                                   std::to_string(offset) + ", which is no multiple of " +
+                                   std::to_string(offset_alignment) +
+                                   " (minStorageBufferOffsetAlignment of this device)");
+}
+
 std::string taken(std::uint32_t query) {
     return "is written by query " + std::to_string(query) +
            " of the same batch, and one place takes one result";
@@ -191,15 +208,10 @@ Status Targets::add(const ResidentBufferTarget& target, std::uint32_t query) {
     if (target.buffer == VK_NULL_HANDLE) {
         return refused(buffer_name, "is null (ResidentBufferTarget::buffer)");
     }
-    if ((target.usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) == 0) {
-        return refused(buffer_name, "was created with the usage " + hexadecimal(target.usage) +
-                                        ", which lacks VK_BUFFER_USAGE_STORAGE_BUFFER_BIT");
-    }
-    if (target.offset % offset_alignment_ != 0) {
-        return refused(buffer_name,
-                       "is to be written at the offset " + std::to_string(target.offset) +
-                           ", which is no multiple of " + std::to_string(offset_alignment_) +
-                           " (minStorageBufferOffsetAlignment of this device)");
+    if (Status status =
+            check_place(buffer_name, target.usage, "written", target.offset, offset_alignment_);
+        !status.ok()) {
+        return status;
     }
     if (target.size > UINT64_MAX - target.offset) {
         return refused(buffer_name,
@@ -236,6 +248,44 @@ Status check_room(const ResidentBufferTarget& target, double bytes, std::string_
                                           std::to_string(target.offset) + " on; the " +
                                           std::string(what) + " may take " +
                                           geometry::number(bytes));
+}
+
+Status check_poses(const DevicePoses& poses, std::uint32_t elements, std::uint64_t offset_alignment,
+                   std::uint64_t reached) {
+    if (poses.buffer == VK_NULL_HANDLE) {
+        return refused(poses_name, "is null (DevicePoses::buffer)");
+    }
+    if (Status status =
+            check_place(poses_name, poses.usage, "read", poses.offset, offset_alignment);
+        !status.ok()) {
+        return status;
+    }
+    if (poses.stride < 4 * sizeof(float) || poses.stride % sizeof(float) != 0) {
+        return refused(poses_name, "has an element every " + std::to_string(poses.stride) +
+                                       " bytes (DevicePoses::stride); a multiple of 4 of at least "
+                                       "16 is needed");
+    }
+    const std::uint64_t needed =
+        elements == 0 ? 0 : std::uint64_t{poses.stride} * (elements - 1) + 4 * sizeof(float);
+    if (poses.size < needed) {
+        return refused(poses_name, "has " + std::to_string(poses.size) + " bytes from offset " +
+                                       std::to_string(poses.offset) +
+                                       " on; the instances need elements up to " +
+                                       std::to_string(elements - 1) + ", which is " +
+                                       std::to_string(needed) + " bytes");
+    }
+    if (needed > reached) {
+        return refused(poses_name, "is needed up to byte " + std::to_string(needed) +
+                                       "; the device's shaders reach " + std::to_string(reached));
+    }
+    if (!(std::abs(poses.origin.x) <= largest_coordinate &&
+          std::abs(poses.origin.y) <= largest_coordinate)) {
+        return refused(poses_name, "has the origin (" + geometry::number(poses.origin.x) + ", " +
+                                       geometry::number(poses.origin.y) +
+                                       "); coordinates must be finite and at most " +
+                                       geometry::number(largest_coordinate) + " in magnitude");
+    }
+    return check_state(poses.before, poses_name, "before");
 }
 
 }  // namespace nearfield::plan

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/device_poses.hpp>
 #include <nearfield/resident.hpp>
 #include <nearfield/status.hpp>
 
@@ -44,5 +45,11 @@ private:
 /// Checks that this many bytes fit the range of the buffer; `what` they are: "records".
 [[nodiscard]] Status check_room(const ResidentBufferTarget& target, double bytes,
                                 std::string_view what);
+
+/// Checks what the host states about the buffer of its poses. `elements`: of which it needs room;
+/// `offset_alignment`: of storage buffers on the device, bytes, and the most bytes that shaders
+/// reach of one.
+[[nodiscard]] Status check_poses(const DevicePoses& poses, std::uint32_t elements,
+                                 std::uint64_t offset_alignment, std::uint64_t reached);
 
 }  // namespace nearfield::plan

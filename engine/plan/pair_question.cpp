@@ -20,11 +20,19 @@ PairQuestion pair_question(const AnyQuery& query, double reach) {
                 contact_budget(contacts->tolerance, {}).cell,
                 true,
                 contacts->records,
-                contacts->contact_distance};
+                contacts->contact_distance,
+                false,
+                contacts->resident};
     }
     const auto& penetration = std::get<PenetrationQuery>(query);
-    return {PairGoal::penetrations, penetration.tolerance, penetration_budget(penetration).cell,
-            penetration.points == PenetrationPoints::boundary, penetration.records};
+    return {PairGoal::penetrations,
+            penetration.tolerance,
+            penetration_budget(penetration).cell,
+            penetration.points == PenetrationPoints::boundary,
+            penetration.records,
+            0.0,
+            false,
+            penetration.resident};
 }
 
 ErrorBudget pair_budget(const AnyQuery& query, const Deviations& deviations) {

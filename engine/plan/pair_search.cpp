@@ -12,6 +12,13 @@ SearchInstanceData data_of_shape(const geometry::Polygon& polygon) {
     return data;
 }
 
+double rounding_of_host_pose(const geometry::Polygon& polygon, double magnitude) {
+    const double lever =
+        static_cast<double>(rounded_up(polygon.radius())) + polygon.centre().lpNorm<1>();
+    return (1.0 + 0x1p-20) * (static_cast<double>(rounding_of_turn) * lever +
+                              static_cast<double>(rounding_of_place) * magnitude);
+}
+
 double margin_of_pair(const Vector& place_a, double radius_a, const Vector& place_b,
                       double radius_b) {
     const double extent = static_cast<double>(rounded_up(radius_a)) +

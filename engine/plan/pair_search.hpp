@@ -51,6 +51,10 @@ inline InstancePlace set_place(const geometry::Polygon& polygon, const Pose& pos
                               (1.0 + 0x1p-22));
 }
 
+/// Bound on what the device loses where it takes a pose of a buffer of the host's, as
+/// shaders/pair_poses.comp has it. `magnitude`: no number that occurs at the pose exceeds it.
+[[nodiscard]] double rounding_of_host_pose(const geometry::Polygon& polygon, double magnitude);
+
 /// Bound on the errors of the device's single precision for a pair, world units; as
 /// shaders/pair_directions.comp has it.
 [[nodiscard]] double margin_of_pair(const geometry::Vector& place_a, double radius_a,

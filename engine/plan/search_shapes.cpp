@@ -197,7 +197,11 @@ void SearchShapes::make_shape(const Polygon& polygon) {
     const std::uint32_t infos = edges + chunk_size * chunks;
     const std::uint32_t starts = infos + 2 * units_for(chunks);
     made_[0] = {chunks, levels, edges, 4 * infos};
-    made_[unit_of_rings] = {polygon.ring_count(), 4 * starts, 0, 0};
+    const auto word_of = [](double coordinate) {
+        return std::bit_cast<std::uint32_t>(static_cast<float>(coordinate));
+    };
+    made_[unit_of_rings] = {polygon.ring_count(), 4 * starts, word_of(polygon.centre().x()),
+                            word_of(polygon.centre().y())};
     made_.resize(starts + units_for(rings_.size()));
     boxes_.assign(chunks, empty_box);
     add_chunks(polygon, edges, infos);

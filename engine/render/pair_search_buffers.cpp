@@ -44,7 +44,12 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
     : device_(&device),
       layout_(&layout),
       submission_(device),
-      timestamps_(device, passes::PairSearch::max_passes, timestamps),
+      timestamps_(device,
+                  passes::PairPoses::max_passes + passes::PairSearch::max_passes +
+                      passes::ExportPairs::max_passes,
+                  timestamps),
+      poses_(device, layout),
+      outputs_(device, layout),
       shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
               gpu::Direction::upload, "nearfield pair shapes"),
       instances_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
@@ -137,15 +142,19 @@ PairSearchBuffers::Bytes PairSearchBuffers::place_arrays() {
     layout.add_stages(pairs, items, edges, points, push);
     push.depths = layout.words(points);
     push.record_depths = layout.words(found);
-    return {layout.bytes(), std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData),
-            bytes_of_rows(rows)};
+    Bytes bytes{layout.bytes(), std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData),
+                bytes_of_rows(rows)};
+    if (outputs_.is_set()) {
+        bytes.resident_records = PairOutputs::bytes_of_records(found);
+        bytes.resident_rows = PairOutputs::bytes_of_pairs(rows);
+    }
+    return bytes;
 }
 
 void PairSearchBuffers::lay_out() {
     const std::uint64_t reached = device_->limits().maxStorageBufferRange;
     const auto fit = [&](const Bytes& bytes) {
-        return std::max({bytes.scratch, bytes.records, bytes.rows}) <= reached &&
-               bytes.scratch + bytes.records + bytes.rows <= memory_limit_;
+        return bytes.largest() <= reached && bytes.sum() <= memory_limit_;
     };
     Bytes bytes = place_arrays();
     if (!fit(bytes)) {
@@ -154,20 +163,20 @@ void PairSearchBuffers::lay_out() {
     }
     if (!fit(bytes)) {
         throw StatusException(
-            {StatusCode::too_large,
-             "the pairs of the world need " +
-                 std::to_string(bytes.scratch + bytes.records + bytes.rows) +
-                 " bytes on the device, " +
-                 std::to_string(std::max({bytes.scratch, bytes.records, bytes.rows})) +
-                 " of them in one buffer; Settings::memory_limit is " +
-                 std::to_string(memory_limit_) + ", and shaders reach " + std::to_string(reached) +
-                 " of a buffer"});
+            {StatusCode::too_large, "the pairs of the world need " + std::to_string(bytes.sum()) +
+                                        " bytes on the device, " + std::to_string(bytes.largest()) +
+                                        " of them in one buffer; Settings::memory_limit is " +
+                                        std::to_string(memory_limit_) + ", and shaders reach " +
+                                        std::to_string(reached) + " of a buffer"});
     }
     scratch_bytes_ = bytes.scratch;
     reserve_with_texels(*device_, scratch_, scratch_texels_, bytes.scratch,
                         "nearfield pair scratch texels");
     records_.reserve(bytes.records);
     rows_.reserve(bytes.rows);
+    if (outputs_.is_set()) {
+        outputs_.reserve(item_.capacities[plan::row_total], item_.capacities[plan::record_total]);
+    }
     item_.shapes = shapes_.handle();
     item_.instances = instances_.handle();
     item_.scratch = scratch_.handle();
@@ -181,8 +190,7 @@ void PairSearchBuffers::lay_out() {
 void PairSearchBuffers::bind() const {
     using Layout = passes::ComputeLayout;
     layout_->begin_updates();
-    const std::uint64_t record_bytes =
-        std::max(item_.capacities[plan::record_total], 1U) * sizeof(plan::FoundPointData);
+    const std::uint64_t record_bytes = records_bytes();
     const std::uint64_t row_bytes = bytes_of_rows(item_.capacities[plan::row_total]);
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
@@ -207,8 +215,30 @@ void PairSearchBuffers::bind() const {
     layout_->end_updates();
 }
 
-/// The commands stay the same as long as the memory does.
-void PairSearchBuffers::submit(Timings& timings) {
+void PairSearchBuffers::record(bool takes_poses) {
+    VkCommandBuffer commands = submission_.begin(true);
+    timestamps_.reset(commands);
+    if (takes_poses) {
+        poses_.record(commands, timestamps_, {item_.shapes, shape_bytes_}, texels_.get(),
+                      {item_.instances, instance_bytes(instance_room_)}, item_.push.instances);
+    }
+    passes_->record(commands, timestamps_, item_);
+    if (outputs_.is_set()) {
+        outputs_.record(commands, timestamps_,
+                        {.search = item_,
+                         .shapes = {item_.shapes, shape_bytes_},
+                         .instances = {item_.instances, instance_bytes(instance_room_)},
+                         .scratch = {item_.scratch, scratch_bytes_},
+                         .arguments = {item_.arguments, argument_bytes(plan::stages_of_pairs)},
+                         .found = {item_.records, records_bytes()},
+                         .rows = {item_.rows, bytes_of_rows(item_.capacities[plan::row_total])},
+                         .texels = texels_.get(),
+                         .scratch_texels = scratch_texels_.get()});
+    }
+}
+
+/// The commands stay the same as long as the memory does, and where poses come from and results go.
+void PairSearchBuffers::submit(bool takes_poses, Timings& timings) {
     checkpoint();
     const Stopwatch start;
     if (!is_laid_out_) {
@@ -218,12 +248,21 @@ void PairSearchBuffers::submit(Timings& timings) {
     clear_counts(arguments_, plan::stages_of_pairs);
     std::memset(rows_.data(), 0, sizeof(plan::PairRowData));
     rows_.flush();
-    if (is_recorded_) {
+    const std::uint32_t revision = takes_poses ? poses_.revision() : 0;
+    const bool is_recorded =
+        is_recorded_ && recorded_poses_ == revision && recorded_outputs_ == outputs_.revision();
+    if (!is_recorded) {
+        is_recorded_ = false;
+        record(takes_poses);
+        recorded_poses_ = revision;
+        recorded_outputs_ = outputs_.revision();
+    }
+    if (takes_poses) {
+        poses_.begin();
+    }
+    if (is_recorded) {
         submission_.submit_again();
     } else {
-        VkCommandBuffer commands = submission_.begin(true);
-        timestamps_.reset(commands);
-        passes_->record(commands, timestamps_, item_);
         submission_.submit();
     }
     is_submitted_ = is_recorded_ = true;
@@ -273,7 +312,7 @@ void PairSearchBuffers::begin(const passes::PairSearch& passes, const plan::Sear
     memory_limit_ = memory_limit;
     upload_shapes(shapes);
     instances_.flush();
-    submit(timings);
+    submit(poses_.is_set(), timings);
 }
 
 void PairSearchBuffers::finish(Timings& timings) {
@@ -286,7 +325,11 @@ void PairSearchBuffers::finish(Timings& timings) {
             break;
         }
         grow();
-        submit(timings);
+        // The places that the poses gave are still there; the host may have overwritten the poses.
+        submit(false, timings);
+    }
+    if (poses_.is_set()) {
+        poses_.finish();
     }
     rows_.invalidate();
     read_undecided();

@@ -7,6 +7,8 @@
 #include <engine/gpu/timestamps.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
+#include <engine/render/pair_outputs.hpp>
+#include <engine/render/pose_source.hpp>
 #include <nearfield/timings.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
@@ -14,6 +16,7 @@
 
 #include <shaders/pairs.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -44,6 +47,12 @@ public:
         std::memcpy(instances_.data() + sizeof(plan::PairQueryData) + number * sizeof(data), &data,
                     sizeof(data));
     }
+    /// Where the places of instances come from, if not from set_instance().
+    [[nodiscard]] PoseSource& poses() { return poses_; }
+    [[nodiscard]] const PoseSource& poses() const { return poses_; }
+    /// What stays on the device.
+    [[nodiscard]] PairOutputs& outputs() { return outputs_; }
+    [[nodiscard]] const PairOutputs& outputs() const { return outputs_; }
     /// The instances in the order of the hierarchy: a permutation of their numbers.
     void set_order(std::span<const std::uint32_t> order);
 
@@ -80,11 +89,25 @@ private:
         std::uint64_t scratch = 0;
         std::uint64_t records = 0;
         std::uint64_t rows = 0;
+        std::uint64_t resident_records = 0;
+        std::uint64_t resident_rows = 0;
+
+        [[nodiscard]] std::uint64_t largest() const {
+            return std::max({scratch, records, rows, resident_records, resident_rows});
+        }
+        [[nodiscard]] std::uint64_t sum() const {
+            return scratch + records + rows + resident_records + resident_rows;
+        }
     };
     [[nodiscard]] Bytes place_arrays();
+    [[nodiscard]] std::uint64_t records_bytes() const {
+        return std::max(item_.capacities[plan::record_total], 1U) * sizeof(plan::FoundPointData);
+    }
     void lay_out();
     void bind() const;
-    void submit(Timings& timings);
+    /// `takes_poses`: of the host; otherwise the instances are placed already.
+    void submit(bool takes_poses, Timings& timings);
+    void record(bool takes_poses);
     void read_back();
     void read_undecided();
     void grow();
@@ -96,6 +119,10 @@ private:
     const passes::PairSearch* passes_ = nullptr;  // of the last search, as is the limit
     std::uint64_t memory_limit_ = 0;
     bool is_submitted_ = false;
+    PoseSource poses_;
+    std::uint32_t recorded_poses_ = 0;  // revision of those that the commands take; 0: none
+    PairOutputs outputs_;
+    std::uint32_t recorded_outputs_ = 0;  // revision of what they leave on the device
     gpu::MappedBuffer shapes_;
     gpu::MappedBuffer instances_;
     gpu::MappedBuffer scratch_;

@@ -55,6 +55,8 @@ void PipelineSet::make(const DeviceTechniques& techniques) const {
         static_cast<void>(masks());
         static_cast<void>(fields());
         static_cast<void>(point_search());
+        static_cast<void>(pair_poses());
+        static_cast<void>(export_pairs());
         for (std::size_t goal = 0; goal < plan::pair_goals; ++goal) {
             static_cast<void>(pair_search(static_cast<plan::PairGoal>(goal)));
         }

@@ -11,6 +11,7 @@
 #include <passes/early_out.hpp>
 #include <passes/export_field.hpp>
 #include <passes/export_headers.hpp>
+#include <passes/export_pairs.hpp>
 #include <passes/export_records.hpp>
 #include <passes/export_samples.hpp>
 #include <passes/feature_bit.hpp>
@@ -20,6 +21,7 @@
 #include <passes/intersect.hpp>
 #include <passes/intersection_strategies.hpp>
 #include <passes/masks.hpp>
+#include <passes/pair_poses.hpp>
 #include <passes/pair_search.hpp>
 #include <passes/point_search.hpp>
 #include <passes/resolve_field.hpp>
@@ -92,7 +94,9 @@ public:
     [[nodiscard]] const passes::Masks& masks() const { return made(masks_); }
     [[nodiscard]] const passes::Fields& fields() const { return made(fields_); }
     [[nodiscard]] const passes::PointSearch& point_search() const { return made(point_search_); }
+    [[nodiscard]] const passes::PairPoses& pair_poses() const { return made(pair_poses_); }
     [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) const;
+    [[nodiscard]] const passes::ExportPairs& export_pairs() const { return made(export_pairs_); }
 
     /// The time that making them has taken.
     [[nodiscard]] double milliseconds() const { return milliseconds_; }
@@ -117,6 +121,8 @@ private:
     mutable std::optional<passes::Masks> masks_;
     mutable std::optional<passes::Fields> fields_;
     mutable std::optional<passes::PointSearch> point_search_;
+    mutable std::optional<passes::PairPoses> pair_poses_;
+    mutable std::optional<passes::ExportPairs> export_pairs_;
     mutable std::optional<passes::PairShaders> pair_shaders_;
     mutable std::array<std::optional<passes::PairSearch>, plan::pair_goals> pair_searches_;
 };

@@ -252,13 +252,20 @@ void Renderer::wait(BatchResources& slot, Timings& timings) {
 }
 
 std::string Renderer::print(GraphFormat format) const {
-    if (last_pairs_) {
-        return passes_.pair_search(*last_pairs_).print(format, "pairs");
-    }
     std::string text;
     const auto add = [&](const auto& graph, const char* title) {
         text += graph.print(format, title);
     };
+    if (last_pairs_) {
+        if (last_pairs_->takes_poses) {
+            add(pair_poses(), "poses of pairs");
+        }
+        add(pair_search(last_pairs_->goal), "pairs");
+        if (last_pairs_->is_resident) {
+            add(export_pairs(), "resident pairs");
+        }
+        return text;
+    }
     if (last_graph_ != nullptr) {
         add(*last_graph_, "tiles");
     }

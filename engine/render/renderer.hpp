@@ -46,10 +46,16 @@ public:
     /// Memory for searches for all pairs, likewise.
     [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(
         const plan::PairQuestion& question);
-    /// The passes of such searches.
-    [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) {
-        last_pairs_ = goal;
+    /// The passes of such searches, those before them that take poses of the host, and those after
+    /// them whose results stay on the device.
+    [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) const {
         return passes_.pair_search(goal);
+    }
+    [[nodiscard]] const passes::PairPoses& pair_poses() const { return passes_.pair_poses(); }
+    [[nodiscard]] const passes::ExportPairs& export_pairs() const { return passes_.export_pairs(); }
+    /// Says that such a search is recorded, for print().
+    void note_pairs(plan::PairGoal goal, bool takes_poses, bool is_resident) {
+        last_pairs_ = {goal, takes_poses, is_resident};
     }
     /// The time that making pipelines has taken, which is in no other time.
     [[nodiscard]] double pipeline_milliseconds() const { return passes_.milliseconds(); }
@@ -110,8 +116,13 @@ private:
     bool last_had_records_ = false;
     bool last_had_samples_ = false;
     bool last_had_searches_ = false;
-    std::optional<plan::PairGoal> last_pairs_;  // since the last batch
-    SearchCounts max_counts_{};                 // found by a search, reserved for the next
+    struct Pairs {
+        plan::PairGoal goal;
+        bool takes_poses;
+        bool is_resident;
+    };
+    std::optional<Pairs> last_pairs_;  // since the last batch
+    SearchCounts max_counts_{};        // found by a search, reserved for the next
     std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
 };
 

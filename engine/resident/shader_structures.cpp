@@ -1,4 +1,5 @@
 #include <nearfield/resident.hpp>
+#include <nearfield/resident_pairs.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -70,6 +71,25 @@ NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, point
 NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, edge);
 NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, region);
 
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, a);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, b);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, count);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, flags);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, first_record);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, record_count);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, first_of_b);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, count_of_b);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, deepest);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, depth);
+
+NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, point);
+NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, nearest);
+NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, normal);
+NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, distance);
+NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, feature);
+NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, edge);
+NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, flags);
+
 #undef NEARFIELD_SAME_MEMBER
 
 #define NEARFIELD_SAME_CONSTANT(ours, theirs) \
@@ -81,6 +101,10 @@ NEARFIELD_SAME_CONSTANT(resident_feature::unique, nearfield_unique_flag);
 NEARFIELD_SAME_CONSTANT(resident_feature::inside, nearfield_inside_flag);
 NEARFIELD_SAME_CONSTANT(resident_flags::on_b, nearfield_on_b_flag);
 NEARFIELD_SAME_CONSTANT(resident_flags::touching, nearfield_touching_flag);
+NEARFIELD_SAME_CONSTANT(resident_pair_flags::touching, nearfield_touching_flag);
+NEARFIELD_SAME_CONSTANT(resident_pair_flags::undecided, nearfield_undecided_flag);
+NEARFIELD_SAME_CONSTANT(resident_pair_flags::uncertain, nearfield_uncertain_flag);
+NEARFIELD_SAME_CONSTANT(resident_pair_flags::intersects, nearfield_intersects_flag);
 NEARFIELD_SAME_CONSTANT(no_record, nearfield_no_record);
 NEARFIELD_SAME_CONSTANT(no_edge, nearfield_no_edge);
 #undef NEARFIELD_SAME_CONSTANT

@@ -70,6 +70,35 @@ struct NearfieldIntersectionSample {
     uint region;  // the region that the cell belongs to
 };
 
+// NearfieldPair::flags and NearfieldPairRecord::flags; a record may also have nearfield_touching_flag
+const uint nearfield_undecided_flag = 4u;    // whether the pair is hit is not certain
+const uint nearfield_uncertain_flag = 8u;    // it is, but count and deepest record are not certain
+const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
+
+// A pair of instances that is hit, or may be (ResidentPairs in resident_pairs.hpp).
+struct NearfieldPair {
+    uint a;             // indices of the instances' handles
+    uint b;
+    uint count;         // of the records, those that count for certain
+    uint flags;
+    uint first_record;  // consecutive records, of points of A's boundary
+    uint record_count;
+    uint first_of_b;    // contacts: those of points of B's boundary
+    uint count_of_b;
+    uint deepest;       // penetrations: the record of the greatest depth, or nearfield_no_record
+    float depth;        // its depth
+};
+
+struct NearfieldPairRecord {
+    vec2 point;      // on the boundary of the one shape; relative to the origin
+    vec2 nearest;    // nearest point of the other shape's boundary; relative to the origin
+    vec2 normal;     // unit: out of the other shape; (0, 0) with nearfield_touching_flag
+    float distance;  // from `point` to `nearest`
+    uint feature;    // id of the edge that `nearest` lies on
+    uint edge;       // that `point` lies on
+    uint flags;
+};
+
 #ifndef __cplusplus  // the declarations above are C++, too
 
 uint nearfield_index(uint feature) {

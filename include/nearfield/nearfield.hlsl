@@ -65,6 +65,34 @@ struct NearfieldIntersectionSample {
     uint region;
 };
 
+// NearfieldPair::flags and NearfieldPairRecord::flags; a record may also have nearfield_touching_flag
+static const uint nearfield_undecided_flag = 4u;    // whether the pair is hit is not certain
+static const uint nearfield_uncertain_flag = 8u;    // count and deepest record are not certain
+static const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
+
+struct NearfieldPair {
+    uint a;
+    uint b;
+    uint count;
+    uint flags;
+    uint first_record;
+    uint record_count;
+    uint first_of_b;
+    uint count_of_b;
+    uint deepest;  // nearfield_no_record if there is none
+    float depth;
+};
+
+struct NearfieldPairRecord {
+    float2 position;  // `point` in GLSL, a word of HLSL
+    float2 nearest;
+    float2 normal;
+    float distance;
+    uint feature;
+    uint edge;
+    uint flags;
+};
+
 #ifndef __cplusplus  // the declarations above are C++, too
 
 uint nearfield_index(uint feature) {

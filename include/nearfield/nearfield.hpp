@@ -5,6 +5,7 @@
 
 #include <nearfield/context.hpp>
 #include <nearfield/curve.hpp>
+#include <nearfield/device_poses.hpp>
 #include <nearfield/diagnostics.hpp>
 #include <nearfield/fill.hpp>
 #include <nearfield/host.hpp>
@@ -15,6 +16,7 @@
 #include <nearfield/query.hpp>
 #include <nearfield/requirements.hpp>
 #include <nearfield/resident.hpp>
+#include <nearfield/resident_pairs.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>

@@ -50,6 +50,9 @@ struct TargetState {
     /// Of images. Before: its layout now; VK_IMAGE_LAYOUT_UNDEFINED discards what it holds, any
     /// other keeps the texels beyond the cells. After: the layout to leave it in.
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+
+    /// True if all members are equal.
+    friend bool operator==(const TargetState&, const TargetState&) = default;
 };
 
 /// The state in which nearfield leaves its own images: sampled by any shader.

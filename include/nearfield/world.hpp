@@ -214,6 +214,7 @@ struct ShapeCastHit {
 template <class Query>
 class PairTable;
 class DevicePairTableBase;
+struct DevicePoses;
 
 /// Instances of shapes of one context, kept from frame to frame.
 ///
@@ -366,6 +367,12 @@ public:
     /// submit() leave it alone and fail with not_ready. Instances and shapes may change meanwhile:
     /// the table describes them as they were. Otherwise likewise.
     Status submit(DevicePairTableBase& table, const Limits& limits = {});
+    /// The same at poses that the host's commands write (device_poses.hpp), of all instances; those
+    /// that the world keeps are neither used nor changed. Also fails with invalid_query if the
+    /// buffer is not as it must be, and, once the device has looked, if a pose is none.
+    Status update(DevicePairTableBase& table, const DevicePoses& poses, const Limits& limits = {});
+    /// Likewise.
+    Status submit(DevicePairTableBase& table, const DevicePoses& poses, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

@@ -3,6 +3,7 @@
 #include <nearfield/export.hpp>
 #include <nearfield/limits.hpp>
 #include <nearfield/query.hpp>
+#include <nearfield/resident_pairs.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/status.hpp>
 #include <nearfield/timings.hpp>
@@ -40,6 +41,11 @@ public:
     /// True if the device has finished what World::submit() began; never waits. Also true once it
     /// is lost. False if nothing was submitted.
     [[nodiscard]] bool is_ready() const noexcept;
+
+    /// What the device leaves for the host's shaders, if the query is resident; see ResidentPairs
+    /// for how long. Fails with invalid_query if it is not, with not_ready if nothing was submitted
+    /// or the world has fewer than two instances.
+    [[nodiscard]] Expected<ResidentPairs> resident() const;
 
 protected:
     /// A table without rows; see DevicePairTable. The query is one of those that it has.
@@ -116,6 +122,9 @@ concept HasDistance = requires(const typename Query::Result& result) {
 /// World::submit() first and collect() after that work; what needs the rows of the frame before
 /// meanwhile has two tables, in turns.
 ///
+/// Poses are the world's, or those that the host's commands write on the device (DevicePoses): rows
+/// are exact at these too.
+///
 /// Used with one world at a time; a table that comes to another world starts anew. It keeps its
 /// memory, on the device too, from update to update, and holds the world's shapes as they were at
 /// the last update.
@@ -130,7 +139,7 @@ public:
 
     /// A table without rows. `a` and `b` of the query are ignored. Its technique is
     /// Technique::compute, or automatic, which means the same; the others are rejected by
-    /// World::update(), as are resident results.
+    /// World::update(), as are targets (PenetrationQuery::target).
     explicit DevicePairTable(const Query& query) : DevicePairTableBase(query, 0.0), query_(query) {}
     /// The same for separations and closest points of shapes that are farther apart. `reach`: world
     /// units, >= 0.

@@ -1,3 +1,4 @@
+#include <nearfield/device_poses.hpp>
 #include <nearfield/world.hpp>
 #include <nearfield/world_device.hpp>
 #include <passes/compute_layout.hpp>
@@ -25,6 +26,13 @@ using test_support::name_of;
 constexpr std::uint32_t pairs_found = 20'000;
 constexpr std::uint32_t word_of_pairs = plan::words_of_arguments * plan::pair_total + 3;
 
+/// How a table is brought up to date.
+enum class Way {
+    at_once,
+    by_halves,  ///< submitted, and then collected
+    on_device,  ///< at once, at poses in a buffer of the host's; results stay there too
+};
+
 /// A table of pairs that the device finds, taken through updates of all kinds.
 class PairsOfDevice {
 public:
@@ -35,24 +43,27 @@ public:
     };
     static constexpr Step steps[] = {Step::first, Step::moved, Step::larger};
 
-    /// `by_halves`: submits and collects in place of an update.
-    explicit PairsOfDevice(bool by_halves)
-        : by_halves_(by_halves),
-          life_(Technique::compute),
-          table_(PenetrationQuery{.tolerance = 0.05}) {
+    explicit PairsOfDevice(Way way)
+        : way_(way), life_(Technique::compute), table_(PenetrationQuery{.tolerance = 0.05}) {
         life_.take_all_before(World::Step::submit_first);
         driver().let_shaders_find({passes::ComputeLayout::output, pairs_found, word_of_pairs});
         Expected<nearfield::World> world = nearfield::World::create(life_.context());
         EXPECT_TRUE(world.has_value()) << world.error().text();
         world_.emplace(std::move(*world));
+        poses_.buffer = driver().make_buffer();
+        poses_.size = 1U << 20U;
+        poses_.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
         add(4, 3);
     }
 
     [[nodiscard]] MockDriver& driver() { return life_.driver(); }
     [[nodiscard]] Status submit() { return world_->submit(table_); }
     [[nodiscard]] Status update() {
-        if (!by_halves_) {
+        if (way_ == Way::at_once) {
             return world_->update(table_);
+        }
+        if (way_ == Way::on_device) {
+            return world_->update(table_, poses_);
         }
         Status status = submit();
         return status.ok() ? table_.collect() : status;
@@ -129,20 +140,20 @@ private:
         }
     }
 
-    bool by_halves_;
+    Way way_;
     World life_;
     std::optional<nearfield::World> world_;
     DevicePairTable<PenetrationQuery> table_;
     std::vector<InstanceHandle> instances_;
+    DevicePoses poses_;
 };
 
 using Step = PairsOfDevice::Step;
 
-void try_error(bool by_halves, Step step, std::string_view call, std::size_t successes,
-               VkResult error) {
+void try_error(Way way, Step step, std::string_view call, std::size_t successes, VkResult error) {
     SCOPED_TRACE(::testing::Message() << "step " << static_cast<int>(step) << ": call " << successes
                                       << " of " << call << " says " << name_of(error));
-    PairsOfDevice pairs(by_halves);
+    PairsOfDevice pairs(way);
     pairs.update_all_before(step);
     pairs.driver().fail(call, successes, error, MockDriver::Failing::from_then_on);
     const Status status = pairs.update();
@@ -161,16 +172,15 @@ void try_error(bool by_halves, Step step, std::string_view call, std::size_t suc
     pairs.expect_to_leave_nothing();
 }
 
-std::vector<std::string_view> calls_of(bool by_halves, Step step) {
-    PairsOfDevice pairs(by_halves);
+std::vector<std::string_view> calls_of(Way way, Step step) {
+    PairsOfDevice pairs(way);
     pairs.update_all_before(step);
     pairs.driver().forget_calls();
     pairs.expect_to_work();
     return pairs.driver().calls();
 }
 
-/// At once, and by halves.
-class DevicePairsOfDriver : public ::testing::TestWithParam<bool> {};
+class DevicePairsOfDriver : public ::testing::TestWithParam<Way> {};
 
 TEST_P(DevicePairsOfDriver, NameFailingCallsLeakNothingAndWorkAfterwards) {
     for (const Step step : PairsOfDevice::steps) {
@@ -185,8 +195,10 @@ TEST_P(DevicePairsOfDriver, NameFailingCallsLeakNothingAndWorkAfterwards) {
             ++count[call];
         }
         EXPECT_EQ(count["vkQueueSubmit"], step == Step::first ? 2U : 1U);
+        // What was submitted with more room takes no poses of the host, so that is recorded anew.
+        const std::uint32_t anew = GetParam() == Way::on_device ? 1 : 0;
         EXPECT_EQ(count["vkBeginCommandBuffer"], step == Step::first   ? 2U
-                                                 : step == Step::moved ? 0U
+                                                 : step == Step::moved ? anew
                                                                        : 1U);
         EXPECT_EQ(count["vkCreateBuffer"] > 0, step != Step::moved);
     }
@@ -221,11 +233,12 @@ TEST_P(DevicePairsOfDriver, SayThatHostMemoryRunsOutAndWorkAfterwards) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Halves, DevicePairsOfDriver, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Ways, DevicePairsOfDriver,
+                         ::testing::Values(Way::at_once, Way::by_halves, Way::on_device));
 
 /// As nothing of the context, a table that is still on the device leaves nothing.
 TEST(DevicePairsInFlight, AreWaitedForByTheirDestructor) {
-    PairsOfDevice pairs(true);
+    PairsOfDevice pairs(Way::by_halves);
     EXPECT_TRUE(pairs.submit().ok());
     pairs.expect_to_leave_nothing();
 }

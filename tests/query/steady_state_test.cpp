@@ -5,6 +5,7 @@
 #include <tests/support/watched_loader.hpp>
 
 #include <array>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <utility>
@@ -279,6 +280,36 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
         return ok;
     });
     EXPECT_GT(rows, 10U);
+}
+
+TEST_F(SteadyState, DevicePairsAtPosesOfTheHostAllocateAndCreateNothing) {
+    Expected<World> world = World::create(watched());
+    ASSERT_TRUE(world.has_value()) << world.error().text();
+    const std::vector<ShapeHandle> shapes = shapes_of_frame();
+    std::vector<std::array<float, 4>> places;
+    for (std::size_t i = 0; i < 20; ++i) {
+        const auto instance = world->add({.shape = shapes[i % 2], .pose = {}});
+        ASSERT_TRUE(instance.has_value()) << instance.error().text();
+        places.push_back({0.8F * static_cast<float>(i), 0.0F, 0.6F, 0.8F});
+    }
+    test_support::HostGpu gpu(host_device());
+    const std::uint64_t bytes = sizeof(places[0]) * places.size();
+    const auto buffer = gpu.make_buffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    std::memcpy(const_cast<std::byte*>(buffer.data), places.data(), bytes);  // it is mapped
+    DevicePoses poses;
+    poses.buffer = buffer.buffer;
+    poses.size = bytes;
+    poses.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    DevicePairTable<PenetrationQuery> table({.tolerance = 0.08, .resident = true});
+    std::vector<PenetrationRecord> records;
+    expect_nothing_made(200, [&](int) {
+        bool ok = world->submit(table, poses).ok() && table.resident() && table.collect().ok();
+        for (std::uint32_t row = 0; row < table.size(); ++row) {
+            ok = table.row(row).has_value() && table.records(row, records).ok() && ok;
+        }
+        return ok;
+    });
+    EXPECT_GT(table.size(), 10U);
 }
 
 TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {

@@ -90,16 +90,21 @@ struct Event {
     }
 };
 
+bool is_for_shaders_of_host(const std::string& name) {
+    return name.starts_with("nearfield resident records") ||
+           name.starts_with("nearfield resident pair");
+}
+
 /// Who reads the buffer after the commands, and how.
 std::map<VkPipelineStageFlags, VkAccessFlags> readers_of(VkBuffer buffer) {
     const std::string name = BufferAccesses::name_of(buffer);
     if (name == "nearfield read-back" || name == "nearfield found points" ||
         name == "nearfield search arguments" || name == "nearfield long searches" ||
         name == "nearfield pair points" || name == "nearfield pair rows" ||
-        name == "nearfield pair arguments") {
+        name == "nearfield pair arguments" || name == "nearfield pair poses") {
         return {{VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT}};
     }
-    if (name == "nearfield resident records") {
+    if (is_for_shaders_of_host(name)) {
         return {{VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT},
                 {VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT},
                 {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT}};
@@ -119,8 +124,7 @@ std::vector<Event> reads_of_results(const Recording& recording) {
     for (const auto& command : recording.commands) {
         const auto* const access = std::get_if<BufferAccess>(&command);
         if (access == nullptr || !seen.insert(access->range.buffer).second ||
-            !BufferAccesses::name_of(access->range.buffer)
-                 .starts_with("nearfield resident records")) {
+            !is_for_shaders_of_host(BufferAccesses::name_of(access->range.buffer))) {
             continue;
         }
         for (const VkPipelineStageFlags stage :

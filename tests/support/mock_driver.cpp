@@ -119,6 +119,13 @@ VkImage MockDriver::make_image() {
     return image;
 }
 
+VkBuffer MockDriver::make_buffer() {
+    const UnwatchedAllocations here;
+    const auto buffer = state_->make<VkBuffer>(the_host, state_->device);
+    state_->objects[number(buffer)].bound = true;
+    return buffer;
+}
+
 bool MockDriver::is_signalled(VkSemaphore semaphore) const {
     return state_->objects.at(number(semaphore)).signalled;
 }

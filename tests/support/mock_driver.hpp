@@ -58,6 +58,7 @@ public:
     [[nodiscard]] bool is_signalled(VkSemaphore semaphore) const;
     /// An image of the host, with memory.
     [[nodiscard]] VkImage make_image();
+    [[nodiscard]] VkBuffer make_buffer();
     /// Sets the timeline semaphore support that host() reports.
     void enable_timeline_semaphores(bool enabled = true);
     [[nodiscard]] VkSemaphore make_timeline_semaphore(std::uint64_t value);

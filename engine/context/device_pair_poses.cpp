@@ -1,0 +1,97 @@
+// Where a table of pairs that the device finds has poses that the host's commands write.
+
+#include <engine/context/device_pair_state.hpp>
+#include <engine/context/world_checks.hpp>
+#include <engine/plan/check_query.hpp>
+#include <engine/plan/check_target.hpp>
+#include <engine/plan/pair_search.hpp>
+#include <nearfield/portable_math.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace nearfield {
+
+/// All instances are written anew where poses come from elsewhere than before.
+void DevicePairTableBase::State::set_poses(const DevicePoses* poses) {
+    const bool is_same_source =
+        poses == nullptr ? !poses_.has_value() : poses_ && poses->origin == poses_->origin;
+    if (!is_same_source) {
+        membership_ = 0;
+    }
+    poses_.reset();
+    if (poses != nullptr) {
+        poses_ = *poses;
+    }
+}
+
+void DevicePairTableBase::State::find_poses(const char* call) {
+    if (!poses_) {
+        buffers_->poses().clear();
+        return;
+    }
+    const VkPhysicalDeviceLimits& limits = context_->device()->limits();
+    const Status status = plan::check_poses(
+        *poses_, elements_, limits.minStorageBufferOffsetAlignment, limits.maxStorageBufferRange);
+    if (!status.ok()) {
+        refuse(call, status.message());
+    }
+    if (instances_.size() > 1) {
+        const double farthest = question_.tolerance > 0.0
+                                    ? question_.tolerance / plan::smallest_tolerance(1.0)
+                                    : std::numeric_limits<float>::max();
+        buffers_->poses().set(context_->renderer()->pair_poses(), *poses_, elements_, farthest);
+    }
+}
+
+void DevicePairTableBase::State::require_usable_poses() {
+    if (!poses_) {
+        return;
+    }
+    if (const auto number = buffers_->poses().unusable()) {
+        const auto [x, y, cosine, sine] = buffers_->poses().pose(*number);
+        refuse("poses", "that of the instance with index " + std::to_string(indices_[*number]) +
+                            " is (" + geometry::number(x) + ", " + geometry::number(y) +
+                            ") with cosine " + geometry::number(cosine) + " and sine " +
+                            geometry::number(sine) +
+                            "; positions must be finite and, with their origin, at most " +
+                            geometry::number(largest_coordinate) +
+                            " in magnitude, and the square of the length of (cosine, sine) must "
+                            "differ from 1 by at most 1/64");
+    }
+    if (!are_poses_taken_) {
+        are_poses_taken_ = true;
+        order_soon();  // until now they were ordered by the poses of the world
+    }
+}
+
+void DevicePairTableBase::State::take_pose(std::uint32_t number) {
+    PairInstance& entry = instances_[number];
+    const auto [x, y, cosine, sine] = buffers_->poses().pose(number);
+    entry.instance.pose = {.translation = {poses_->origin.x + x, poses_->origin.y + y},
+                           .angle = arc_tangent(sine, cosine)};
+    const double length = std::hypot(cosine, sine);
+    plan::SearchInstanceData unused;
+    entry.place = plan::set_place(*polygon_of(entry.instance.shape), entry.instance.pose,
+                                  {sine / length, cosine / length}, origin_, unused)
+                      .place;
+}
+
+double DevicePairTableBase::State::rounding_of(const PairInstance& entry) const {
+    const geometry::Polygon& polygon = *polygon_of(entry.instance.shape);
+    const double magnitude = origin_.lpNorm<1>() + entry.place.lpNorm<1>() + polygon.radius() +
+                             polygon.centre().lpNorm<1>();
+    return plan::rounding_of_host_pose(polygon, magnitude);
+}
+
+const plan::PairRowData& DevicePairTableBase::State::pair_of(std::uint32_t device_row) {
+    const plan::PairRowData& data = buffers_->rows()[device_row];
+    if (poses_) {
+        take_pose(data.a);
+        take_pose(data.b);
+    }
+    return data;
+}
+
+}  // namespace nearfield

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <engine/geometry/vector.hpp>
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <nearfield/resident_pairs.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/compute_sets.hpp>
+#include <passes/export_pairs.hpp>
+
+#include <cstdint>
+
+namespace nearfield::render {
+
+/// What stays on the device of the search for all pairs of a world, if that is asked for.
+class PairOutputs {
+public:
+    PairOutputs(const gpu::Device& device, const passes::ComputeLayout& layout);
+
+    /// From now on searches leave it there. `origin`: of the instances' places.
+    void set(const passes::ExportPairs& passes, const geometry::Vector& origin);
+    [[nodiscard]] bool is_set() const { return passes_ != nullptr; }
+    /// Differs if commands recorded before are about another origin.
+    [[nodiscard]] std::uint32_t revision() const { return revision_; }
+
+    /// Bytes of so many rows and records, of one buffer each.
+    [[nodiscard]] static std::uint64_t bytes_of_pairs(std::uint64_t count) {
+        return count * sizeof(PairData);
+    }
+    [[nodiscard]] static std::uint64_t bytes_of_records(std::uint64_t count) {
+        return count * sizeof(PairRecordData);
+    }
+    /// Makes room for what a search has room for.
+    void reserve(std::uint32_t pairs, std::uint32_t records);
+
+    /// A buffer of the search.
+    struct Part {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        std::uint64_t bytes = 0;
+    };
+    struct Input {
+        const passes::PairSearch::Item& search;
+        Part shapes, instances, scratch, arguments, found, rows;
+        VkBufferView texels, scratch_texels;
+    };
+    /// Records the passes. The device must not be working at what was recorded before.
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Input& input);
+
+    [[nodiscard]] ResidentPairs pairs() const;
+
+private:
+    void bind(const Input& input) const;
+
+    const gpu::Device* device_;
+    const passes::ComputeLayout* layout_;
+    gpu::MappedBuffer pairs_;
+    gpu::MappedBuffer records_;
+    gpu::MappedBuffer headers_;
+    passes::DescriptorSets sets_;
+    const passes::ExportPairs* passes_ = nullptr;
+    passes::ExportPairs::Item item_;
+    geometry::Vector origin_ = geometry::Vector::Zero();
+    std::uint32_t pair_room_ = 0;
+    std::uint32_t record_room_ = 0;
+    std::uint32_t revision_ = 0;
+    std::uint64_t handles_ = 0;  // changes with them
+};
+
+}  // namespace nearfield::render

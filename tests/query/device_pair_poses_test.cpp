@@ -1,0 +1,394 @@
+#include <tests/query/device_pairs.hpp>
+#include <tests/support/host_gpu.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::HostGpu;
+
+constexpr std::uint64_t seed = 27000;
+
+/// x, y, cosine and sine.
+using HostPose = std::array<float, 4>;
+
+/// Tables of pairs at poses that commands of the host write.
+class DevicePairPoses : public DevicePairsTest {
+protected:
+    void SetUp() override {
+        DevicePairsTest::SetUp();
+        gpu_.emplace(host_device());
+    }
+    void TearDown() override {
+        DevicePairsTest::TearDown();
+        gpu_.reset();
+    }
+
+    /// A buffer with room for poses, and another one from which they are copied to it.
+    class Buffer {
+    public:
+        Buffer(HostGpu& gpu, std::size_t elements, std::uint32_t stride, VkDeviceSize offset)
+            : gpu_(&gpu) {
+            poses_.offset = offset;
+            poses_.size = stride * elements;
+            poses_.stride = stride;
+            poses_.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+            poses_.before = {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT};
+            poses_.buffer = gpu.make_buffer(bytes(), poses_.usage).buffer;
+            source_ = gpu.make_buffer(bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+        }
+
+        [[nodiscard]] DevicePoses& poses() { return poses_; }
+        /// Has the device write them, once it is done with the reading of earlier ones.
+        void write(const std::vector<HostPose>& poses) {
+            // What is mapped may be written by the host.
+            auto* const data = const_cast<std::byte*>(source_.data);
+            for (std::size_t i = 0; i < poses.size(); ++i) {
+                std::memcpy(data + poses_.offset + i * poses_.stride, poses[i].data(),
+                            sizeof(HostPose));
+            }
+            gpu_->submit([this](VkCommandBuffer commands) {
+                gpu_->vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                           VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
+                                           nullptr, 0, nullptr);
+                const VkBufferCopy all{0, 0, bytes()};
+                gpu_->vkCmdCopyBuffer(commands, source_.buffer, poses_.buffer, 1, &all);
+            });
+        }
+
+    private:
+        [[nodiscard]] VkDeviceSize bytes() const { return poses_.offset + poses_.size; }
+
+        HostGpu* gpu_;
+        DevicePoses poses_;
+        HostGpu::Buffer source_;
+    };
+    [[nodiscard]] Buffer make_buffer(std::uint32_t stride = 16, VkDeviceSize offset = 0) {
+        return {*gpu_, added_.size(), stride, offset};
+    }
+
+    /// Instances of all kinds of shapes.
+    void add_some(Random& random, int of_each) {
+        for (const Rings& rings : some_shapes(random)) {
+            const ShapeHandle shape = add_shape(rings);
+            for (int i = 0; i < of_each; ++i) {
+                added_.push_back(add(shape, {}));
+            }
+        }
+    }
+    void add_squares(int count) {
+        const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+        for (int i = 0; i < count; ++i) {
+            added_.push_back(add(square, {}));
+        }
+    }
+    /// So that shapes far from their origin, as some are, come near the others too.
+    [[nodiscard]] HostPose any_host_pose(Random& random, const Vector2& centre) {
+        const double angle = random.between(-4.0, 4.0);
+        const double length = random.between(0.9925, 1.0075);
+        const double cosine = std::cos(angle);
+        const double sine = std::sin(angle);
+        const double x = random.between(-3.0, 3.0) - cosine * centre.x + sine * centre.y;
+        const double y = random.between(-3.0, 3.0) - sine * centre.x - cosine * centre.y;
+        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(length * cosine),
+                static_cast<float>(length * sine)};
+    }
+    /// Of all instances, by the index of their handles.
+    [[nodiscard]] std::vector<HostPose> any_poses(Random& random) {
+        std::vector<HostPose> poses(added_.size());
+        for (std::size_t i = 0; i < added_.size(); ++i) {
+            const bool is_far = i / 2 == 11;  // see some_shapes()
+            poses[added_[i].index] =
+                any_host_pose(random, is_far ? Vector2{100.0, -50.0} : Vector2{});
+        }
+        return poses;
+    }
+    /// The same poses, as the world has them.
+    void move_to(const std::vector<HostPose>& poses, const Vector2& origin) {
+        for (const InstanceHandle handle : added_) {
+            const auto [x, y, cosine, sine] = poses[handle.index];
+            const Pose pose{
+                .translation = {origin.x + static_cast<double>(x),
+                                origin.y + static_cast<double>(y)},
+                .angle = arc_tangent(static_cast<double>(sine), static_cast<double>(cosine))};
+            ASSERT_TRUE(world().move(handle, pose).ok());
+        }
+    }
+    /// All instances far from each other.
+    void scatter() {
+        for (std::size_t i = 0; i < added_.size(); ++i) {
+            ASSERT_TRUE(world().move(added_[i], {{1000.0 * static_cast<double>(i), 0.0}}).ok());
+        }
+    }
+
+    /// Rows at the host's poses are those of the CPU at the same poses of the world.
+    template <class Query>
+    void compare(DevicePairTable<Query>& table, PairTable<Query>& cpu, Buffer& buffer,
+                 const std::vector<HostPose>& poses) {
+        ASSERT_NO_FATAL_FAILURE(move_to(poses, buffer.poses().origin));
+        ASSERT_TRUE(world().update(cpu).ok());
+        ASSERT_NO_FATAL_FAILURE(scatter());
+        buffer.write(poses);
+        const Status status = world().update(table, buffer.poses());
+        gpu_->finish();
+        ASSERT_TRUE(status.ok()) << status.text();
+        std::uint32_t next = 0;
+        for (const PairRow<Query>& truth : cpu.rows()) {
+            if constexpr (std::is_same_v<Query, PenetrationQuery>) {
+                if (truth.count == 0 && truth.status == StatusCode::ok) {
+                    continue;
+                }
+            }
+            SCOPED_TRACE("row " + std::to_string(next));
+            ASSERT_LT(next, table.size());
+            ASSERT_NO_FATAL_FAILURE(expect_equal(*table.row(next), truth, table.query()));
+            ++next;
+        }
+        EXPECT_EQ(next, table.size());
+        rows_ += next;
+    }
+    template <class Query>
+    static void expect_equal(const PairRow<Query>& row, const PairRow<Query>& truth,
+                             const Query& query) {
+        ASSERT_EQ(row.a, truth.a);
+        ASSERT_EQ(row.b, truth.b);
+        EXPECT_EQ(row.status, truth.status);
+        EXPECT_EQ(row.error_bound, truth.error_bound);
+        EXPECT_EQ(row.intersects, truth.intersects);
+        if constexpr (requires { row.count; }) {
+            EXPECT_EQ(row.count, truth.count);
+        }
+        if (truth.status != StatusCode::ok) {
+            return;
+        }
+        if constexpr (requires { row.deepest; }) {
+            EXPECT_NEAR(row.deepest.depth, truth.deepest.depth, query.tolerance / 1000.0);
+            EXPECT_EQ(row.deepest.point, truth.deepest.point);
+        }
+        if constexpr (requires { row.distance; }) {
+            EXPECT_EQ(row.distance, truth.distance);
+        }
+    }
+
+    HostGpu& gpu() { return *gpu_; }
+
+    std::vector<InstanceHandle> added_;
+    std::uint32_t rows_ = 0;  // that were compared
+
+private:
+    std::optional<HostGpu> gpu_;
+};
+
+TEST_F(DevicePairPoses, GiveTheRowsOfTheSamePosesOfTheWorld) {
+    Random shapes(seed);
+    add_some(shapes, 2);
+    const auto compare_all = [&]<class Query>(const Query& query, const auto&... reach) {
+        DevicePairTable<Query> table(query, reach...);
+        PairTable<Query> cpu(query, {.reach = (0.0 + ... + reach), .hits_only = true});
+        std::vector<Buffer> buffers{make_buffer(), make_buffer(28, 256)};
+        buffers[1].poses().origin = {3e4, -1e4};
+        for_each_case(seed, 4, [&](Random& random) {
+            for (Buffer& buffer : buffers) {
+                ASSERT_NO_FATAL_FAILURE(compare(table, cpu, buffer, any_poses(random)));
+            }
+        });
+    };
+    compare_all(PenetrationQuery{.tolerance = 0.01, .points = PenetrationPoints::vertices});
+    compare_all(PenetrationQuery{.tolerance = 0.03});
+    compare_all(PenetrationQuery{.tolerance = 1e-6, .points = PenetrationPoints::vertices});
+    compare_all(ContactQuery{.tolerance = 0.02, .contact_distance = 0.05});
+    compare_all(IntersectionTestQuery{});
+    compare_all(SeparationQuery{.tolerance = 0.01}, 0.2);
+    compare_all(ClosestPointQuery{.tolerance = 0.01}, 0.2);
+    EXPECT_GT(rows_, 2000U);
+}
+
+/// The device's turns are near enough to true ones: squares that touch, or nearly.
+TEST_F(DevicePairPoses, TellWhatTouchesFromWhatDoesNot) {
+    add_squares(60);
+    DevicePairTable table(IntersectionTestQuery{});
+    PairTable cpu(IntersectionTestQuery{}, {.hits_only = true});
+    Buffer buffer = make_buffer();
+    for_each_case(seed, 12, [&](Random& random) {
+        std::vector<HostPose> poses;
+        for (int i = 0; i < 30; ++i) {
+            const double angle = random.between(-4.0, 4.0);
+            const std::array<float, 2> turn{static_cast<float>(std::cos(angle)),
+                                            static_cast<float>(std::sin(angle))};
+            const auto far = static_cast<float>(20.0 * i);
+            // Two units along the x axis of the square.
+            const std::array<float, 2> apart{far + 2.0F * turn[0], 2.0F * turn[1]};
+            const auto skip = static_cast<float>(random.whole(-1, 1)) * 1.5e-7F;
+            poses.push_back({far, 0.0F, turn[0], turn[1]});
+            poses.push_back(
+                {apart[0] + skip * turn[0], apart[1] + skip * turn[1], turn[0], turn[1]});
+        }
+        ASSERT_NO_FATAL_FAILURE(compare(table, cpu, buffer, poses));
+    });
+    EXPECT_GT(rows_, 50U);
+    EXPECT_LT(rows_, 300U);
+}
+
+/// Coordinates that double precision does not resolve to the tolerance: the CPU says so.
+TEST_F(DevicePairPoses, TooFarAwayAreRefusedPairByPair) {
+    add_squares(6);
+    DevicePairTable<PenetrationQuery> table(
+        {.tolerance = 1e-4, .points = PenetrationPoints::vertices});
+    PairTable<PenetrationQuery> cpu(table.query(), {.hits_only = true});
+    Buffer buffer = make_buffer();
+    const std::vector<HostPose> poses(6, {0.5F, 0.0F, 0.8F, 0.6F});
+    for (const double x : {1e7, 1.2e9}) {
+        buffer.poses().origin = {x, 0.0};
+        ASSERT_NO_FATAL_FAILURE(compare(table, cpu, buffer, poses));
+        EXPECT_EQ(table.size() == 0, x < 1e8);
+    }
+    EXPECT_EQ(table.row(0)->status, StatusCode::invalid_query);
+}
+
+/// Whatever the host does with the buffer afterwards; there is room for some thousand pairs at
+/// first, so that the search is submitted again.
+TEST_F(DevicePairPoses, AreReadOnce) {
+    add_squares(120);
+    std::vector<HostPose> together;
+    std::vector<HostPose> apart;
+    for (int i = 0; i < 120; ++i) {
+        const auto place = static_cast<float>(i);
+        together.push_back({0.01F * place, 0.005F * place, 0.8F, 0.6F});
+        apart.push_back({10.0F * place, 0.0F, 1.0F, 0.0F});
+    }
+    Buffer buffer = make_buffer();
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.05});
+    buffer.write(together);
+    ASSERT_TRUE(world().submit(table, buffer.poses()).ok());
+    gpu().finish();
+    buffer.write(apart);
+    gpu().finish();
+    const Status status = table.collect();
+    ASSERT_TRUE(status.ok()) << status.text();
+    EXPECT_EQ(table.candidates(), 120U * 119U);
+    EXPECT_EQ(table.size(), 120U * 119U);
+    EXPECT_NEAR(table.row(0)->deepest.depth, 0.011, 1e-6);  // turned by 0.8, 0.6
+    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+    EXPECT_EQ(table.size(), 0U);
+}
+
+/// Poses of the world and of the host in turns, and members and shapes that change.
+TEST_F(DevicePairPoses, AreNotKept) {
+    add_squares(3);
+    DevicePairTable table(IntersectionTestQuery{});
+    const std::vector<HostPose> poses{
+        {0.0F, 0.0F, 1.0F, 0.0F}, {1.5F, 0.0F, 1.0F, 0.0F}, {9.0F, 0.0F, 1.0F, 0.0F}, {}, {}};
+    ASSERT_NO_FATAL_FAILURE(scatter());
+    Buffer buffer(gpu(), 5, 16, 0);
+    buffer.write(poses);
+    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+    gpu().finish();
+    ASSERT_EQ(table.size(), 1U);
+    EXPECT_EQ(table.row(0)->a, added_[0]);
+    EXPECT_EQ(table.row(0)->b, added_[1]);
+    ASSERT_TRUE(world().update(table).ok());
+    EXPECT_EQ(table.size(), 0U);
+    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+    EXPECT_EQ(table.size(), 1U);
+    buffer.poses().origin = {4.0, 4.0};
+    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+    EXPECT_EQ(table.size(), 1U);
+    // The last one takes the place of the first.
+    ASSERT_TRUE(world().remove(added_[0]).ok());
+    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+    EXPECT_EQ(table.size(), 0U);
+    added_[0] = add(world().instance(added_[1])->shape, {});
+    ASSERT_EQ(added_[0].index, 0U);
+    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+    ASSERT_EQ(table.size(), 1U);
+    EXPECT_EQ(table.row(0)->a, added_[1]);
+    EXPECT_EQ(table.row(0)->b, added_[0]);
+    const Rings large = rectangle({-4.0, -4.0}, {4.0, 4.0});
+    ASSERT_TRUE(context().update_shape(world().instance(added_[1])->shape, large).ok());
+    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+    EXPECT_EQ(table.size(), 2U);
+    ASSERT_TRUE(world().set_filter(added_[2], 1, 0).ok());
+    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+    EXPECT_EQ(table.size(), 1U);
+}
+
+TEST_F(DevicePairPoses, ThatAreNoneAreNamed) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
+    add_squares(100);
+    const std::vector<HostPose> usable(100, {1.0F, 2.0F, -0.6F, 0.8F});
+    Buffer buffer = make_buffer();
+    DevicePairTable table(IntersectionTestQuery{});
+    buffer.poses().origin = {1e11, 0.0};
+    for (const HostPose& bad :
+         {HostPose{no_number, 0.0F, 1.0F, 0.0F}, HostPose{0.0F, infinity, 1.0F, 0.0F},
+          HostPose{0.0F, -infinity, 1.0F, 0.0F}, HostPose{0.95e12F, 0.0F, 1.0F, 0.0F},
+          HostPose{0.0F, 0.0F, 0.0F, 0.0F}, HostPose{0.0F, 0.0F, 1.0F, no_number},
+          HostPose{0.0F, 0.0F, 1.01F, 0.0F}, HostPose{0.0F, 0.0F, 0.0F, 0.99F},
+          HostPose{0.0F, 0.0F, infinity, 0.0F}, HostPose{0.0F, 0.0F, 1e30F, 0.0F}}) {
+        std::vector<HostPose> poses = usable;
+        poses[71] = poses[93] = bad;
+        buffer.write(poses);
+        const Status status = world().update(table, buffer.poses());
+        gpu().finish();
+        EXPECT_EQ(status.code(), StatusCode::invalid_query) << bad[0] << " " << bad[2];
+        EXPECT_NE(status.message().find("of the instance with index 71 is ("), std::string::npos)
+            << status.text();
+        EXPECT_EQ(table.size(), 0U);
+        buffer.write(usable);
+        const Status good = world().update(table, buffer.poses());
+        gpu().finish();
+        ASSERT_TRUE(good.ok()) << good.text();
+        EXPECT_EQ(table.size(), 100U * 99U / 2U);
+    }
+}
+
+TEST_F(DevicePairPoses, OfBadBuffersAreRefused) {
+    add_squares(3);
+    Buffer buffer(gpu(), 3, 20, 0);
+    buffer.write({{0.0F, 0.0F, 1.0F, 0.0F}, {5.0F, 0.0F, 1.0F, 0.0F}, {0.5F, 0.0F, 1.0F, 0.0F}});
+    gpu().finish();
+    DevicePairTable table(IntersectionTestQuery{});
+    const auto expect_refusal = [&](const char* why, const auto& change) {
+        DevicePoses poses = buffer.poses();
+        change(poses);
+        const Status status = world().submit(table, poses);
+        EXPECT_EQ(status.code(), StatusCode::invalid_query);
+        EXPECT_EQ(status.message().find("submit: the buffer of the poses "), 0U) << status.text();
+        EXPECT_NE(status.message().find(why), std::string::npos) << status.text();
+        EXPECT_EQ(world().update(table, poses).code(), StatusCode::invalid_query);
+        EXPECT_EQ(table.size(), 0U);
+    };
+    expect_refusal("is null", [](DevicePoses& poses) { poses.buffer = VK_NULL_HANDLE; });
+    expect_refusal("lacks VK_BUFFER_USAGE_STORAGE_BUFFER_BIT",
+                   [](DevicePoses& poses) { poses.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT; });
+    expect_refusal("at the offset 2", [](DevicePoses& poses) { poses.offset = 2; });
+    for (const std::uint32_t stride : {0U, 12U, 18U}) {
+        expect_refusal("an element every", [=](DevicePoses& poses) { poses.stride = stride; });
+    }
+    // Two whole elements between the first words, and the last four floats.
+    expect_refusal("need elements up to 2, which is 56 bytes",
+                   [](DevicePoses& poses) { poses.size = 55; });
+    expect_refusal("has the origin (nan, 0)", [](DevicePoses& poses) {
+        poses.origin.x = std::numeric_limits<double>::quiet_NaN();
+    });
+    expect_refusal("has the origin (0, -2e+12)",
+                   [](DevicePoses& poses) { poses.origin.y = -2e12; });
+    expect_refusal("no stages that make them", [](DevicePoses& poses) { poses.before.stages = 0; });
+    DevicePoses least = buffer.poses();
+    least.size = 56;
+    const Status status = world().update(table, least);
+    ASSERT_TRUE(status.ok()) << status.text();
+    EXPECT_EQ(table.size(), 1U);
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,272 @@
+#include <tests/query/device_pairs.hpp>
+#include <tests/support/host_gpu.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::HostGpu;
+
+constexpr std::uint64_t seed = 28000;
+
+/// What tables of pairs leave on the device, compared with their exact rows.
+class DevicePairResidents : public DevicePairsTest {
+protected:
+    void SetUp() override {
+        DevicePairsTest::SetUp();
+        gpu_.emplace(host_device());
+    }
+    void TearDown() override {
+        DevicePairsTest::TearDown();
+        gpu_.reset();
+    }
+
+    struct Read {
+        ResidentHeaderData pair_header;
+        ResidentHeaderData record_header;
+        std::vector<PairData> pairs;
+        std::vector<PairRecordData> records;
+    };
+
+    template <class Data>
+    std::vector<Data> read(VkBuffer buffer, VkDeviceSize offset, std::size_t count,
+                           const ResidentState& state) {
+        std::vector<Data> data(count);
+        if (count > 0) {
+            const auto words = gpu_->read(buffer, offset, count * sizeof(Data), state);
+            std::memcpy(static_cast<void*>(data.data()), words.data(), count * sizeof(Data));
+        }
+        return data;
+    }
+    Read read(const ResidentPairs& pairs) {
+        const auto header_of = [&](const ResidentArray& array) {
+            return read<ResidentHeaderData>(array.header.buffer, array.header.offset, 1,
+                                            pairs.state)[0];
+        };
+        Read all;
+        all.pair_header = header_of(pairs.pairs);
+        all.record_header = header_of(pairs.records);
+        EXPECT_LE(all.pair_header.count, pairs.pairs.capacity);
+        EXPECT_LE(all.record_header.count, pairs.records.capacity);
+        EXPECT_EQ(pairs.pairs.size, pairs.pairs.capacity * sizeof(PairData));
+        EXPECT_EQ(pairs.records.size, pairs.records.capacity * sizeof(PairRecordData));
+        for (const ResidentHeaderData& header : {all.pair_header, all.record_header}) {
+            EXPECT_EQ(header.points.vertexCount, header.count);
+            EXPECT_EQ(header.points.instanceCount, 1U);
+            EXPECT_EQ(header.quads.vertexCount, 6U);
+            EXPECT_EQ(header.quads.instanceCount, header.count);
+            EXPECT_EQ(header.groups.x, (header.count + 63) / 64);
+            EXPECT_EQ(header.groups.y * header.groups.z, 1U);
+            EXPECT_EQ(header.origin[0], static_cast<float>(pairs.origin.x));
+            EXPECT_EQ(header.origin[1], static_cast<float>(pairs.origin.y));
+        }
+        all.pairs = read<PairData>(pairs.pairs.buffer, 0, all.pair_header.count, pairs.state);
+        all.records =
+            read<PairRecordData>(pairs.records.buffer, 0, all.record_header.count, pairs.state);
+        return all;
+    }
+
+    /// ResidentPairs states it: most shapes have a radius of about 1, one of 9, and are within 8 of
+    /// the origin; for one that is farther away it allows more.
+    static constexpr double near = 40.0 * 0x1p-17;
+
+    /// Of the records of a row, that of a point; null if there is none.
+    static const PairRecordData* find(const Read& all, std::uint32_t first, std::uint32_t count,
+                                      const Vector2& origin, const Vector2& point) {
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            const PairRecordData& one = all.records[i];
+            if (std::hypot(origin.x + static_cast<double>(one.point[0]) - point.x,
+                           origin.y + static_cast<double>(one.point[1]) - point.y) <= near) {
+                return &one;
+            }
+        }
+        return nullptr;
+    }
+
+    /// `direction`: out of the other shape.
+    void expect_equal(const PairRecordData& found, const Vector2& nearest, const Vector2& direction,
+                      double distance, bool unique, const Vector2& origin) {
+        EXPECT_NEAR(static_cast<double>(found.distance), distance, near);
+        if (unique && (found.feature & resident_feature::unique) != 0) {
+            // As far apart as two points of one edge can be that are as near.
+            const double apart = 4.0 * std::sqrt(near * (distance + near));
+            EXPECT_NEAR(origin.x + static_cast<double>(found.nearest[0]), nearest.x, apart);
+            EXPECT_NEAR(origin.y + static_cast<double>(found.nearest[1]), nearest.y, apart);
+        }
+        const auto x = static_cast<double>(found.normal[0]);
+        const auto y = static_cast<double>(found.normal[1]);
+        if ((found.flags & resident_pair_flags::touching) != 0) {
+            EXPECT_EQ(x * x + y * y, 0.0);
+            EXPECT_LE(distance, 2.0 * near);
+            return;
+        }
+        EXPECT_NEAR(std::hypot(x, y), 1.0, 1e-6);
+        if (unique && distance > 100.0 * near) {
+            EXPECT_NEAR(x, direction.x, 0.2);
+            EXPECT_NEAR(y, direction.y, 0.2);
+            ++normals_;
+        }
+    }
+
+    /// Updates a table and compares what it left on the device with its rows.
+    template <class Query>
+    void compare(DevicePairTable<Query>& table) {
+        ASSERT_TRUE(world().submit(table).ok());
+        const Status status = table.collect();
+        ASSERT_TRUE(status.ok()) << status.text();
+        const Expected<ResidentPairs> pairs = table.resident();
+        ASSERT_TRUE(pairs.has_value()) << pairs.error().text();
+        const Read all = read(*pairs);
+        EXPECT_EQ(all.pair_header.overflow + all.record_header.overflow, 0U);
+        std::map<std::pair<std::uint32_t, std::uint32_t>, const PairData*> by_pair;
+        std::uint32_t undecided = 0;
+        for (const PairData& pair : all.pairs) {
+            EXPECT_TRUE(by_pair.emplace(std::pair(pair.a, pair.b), &pair).second);
+            undecided += (pair.flags & resident_pair_flags::undecided) != 0 ? 1 : 0;
+        }
+        EXPECT_EQ(undecided, table.left_to_cpu());
+        std::uint32_t rows = 0;
+        for (std::uint32_t i = 0; i < table.size(); ++i) {
+            const auto row = table.row(i);
+            ASSERT_TRUE(row.has_value());
+            const auto found = by_pair.find({row->a.index, row->b.index});
+            ASSERT_NE(found, by_pair.end());
+            if ((found->second->flags & resident_pair_flags::undecided) == 0) {
+                ++rows;
+                ASSERT_NO_FATAL_FAILURE(
+                    compare_row(table, i, *row, *found->second, all, pairs->origin));
+            }
+        }
+        EXPECT_EQ(rows + undecided, all.pairs.size());
+        rows_ += rows;
+    }
+
+    template <class Query>
+    void compare_row(DevicePairTable<Query>& table, std::uint32_t i, const PairRow<Query>& row,
+                     const PairData& pair, const Read& all, const Vector2& origin) {
+        SCOPED_TRACE("row " + std::to_string(i));
+        ASSERT_LE(pair.first_record + pair.record_count, all.records.size());
+        ASSERT_LE(pair.first_of_b + pair.count_of_b, all.records.size());
+        if ((pair.flags & resident_pair_flags::uncertain) == 0) {
+            EXPECT_EQ(pair.count, row.count);
+        }
+        if ((pair.flags & resident_pair_flags::intersects) != 0) {
+            EXPECT_TRUE(row.intersects);
+        }
+        std::vector<typename Query::Result::Record> exact;
+        ASSERT_TRUE(table.records(i, exact).ok());
+        for (const auto& one : exact) {
+            bool is_of_b = false;
+            if constexpr (std::is_same_v<Query, ContactQuery>) {
+                is_of_b = one.on == Side::b;
+            }
+            const PairRecordData* const found =
+                is_of_b ? find(all, pair.first_of_b, pair.count_of_b, origin, one.point)
+                        : find(all, pair.first_record, pair.record_count, origin, one.point);
+            ASSERT_NE(found, nullptr) << one.point.x << " " << one.point.y;
+            if constexpr (std::is_same_v<Query, PenetrationQuery>) {
+                expect_equal(*found, one.nearest, one.direction, one.depth, one.unique, origin);
+            } else {
+                const double sign = one.inside ? 1.0 : -1.0;
+                const Vector2 direction{sign * (one.nearest.x - one.point.x) / one.distance,
+                                        sign * (one.nearest.y - one.point.y) / one.distance};
+                expect_equal(*found, one.nearest, direction, one.distance, one.unique, origin);
+            }
+            ++records_;
+        }
+        if constexpr (std::is_same_v<Query, PenetrationQuery>) {
+            ASSERT_LT(pair.deepest, all.records.size());
+            EXPECT_NEAR(static_cast<double>(pair.depth), row.deepest.depth, near);
+            EXPECT_NEAR(all.records[pair.deepest].distance, pair.depth, 1e-4F);
+            EXPECT_NE(all.records[pair.deepest].feature & resident_feature::inside, 0U);
+        } else {
+            EXPECT_EQ(pair.deepest, no_record);
+        }
+    }
+
+    HostGpu& gpu() { return *gpu_; }
+
+    std::uint32_t rows_ = 0;  // that were compared
+    std::uint32_t records_ = 0;
+    std::uint32_t normals_ = 0;
+
+private:
+    std::optional<HostGpu> gpu_;
+};
+
+TEST_F(DevicePairResidents, ArePenetrationsAsTheDeviceFindsThem) {
+    for_each_case(seed, 3, [&](Random& random) {
+        for (const PenetrationPoints points :
+             {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
+            DevicePairTable table(PenetrationQuery{.tolerance = 0.02,
+                                                   .points = points,
+                                                   .technique = Technique::compute,
+                                                   .resident = true});
+            run_history(random, {4, 40, 5.0}, [&] { compare(table); });
+        }
+    });
+    EXPECT_GT(rows_, 500U);
+    EXPECT_GT(records_, 5000U);
+    EXPECT_GT(normals_, 100U);
+}
+
+TEST_F(DevicePairResidents, AreContactsAsTheDeviceFindsThem) {
+    for_each_case(seed, 3, [&](Random& random) {
+        DevicePairTable table(
+            ContactQuery{.tolerance = 0.02, .contact_distance = 0.05, .resident = true});
+        run_history(random, {4, 30, 5.0}, [&] { compare(table); });
+    });
+    EXPECT_GT(rows_, 200U);
+    EXPECT_GT(records_, 2000U);
+}
+
+/// There is room for some thousand pairs at first.
+TEST_F(DevicePairResidents, SayThatTheyAreNotAllThere) {
+    const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    for (int i = 0; i < 120; ++i) {
+        add(square, {.translation = {0.01 * i, 0.005 * i}, .angle = 0.1 * i});
+    }
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true});
+    ASSERT_TRUE(world().submit(table).ok());
+    const Read before = read(*table.resident());
+    EXPECT_EQ(before.pair_header.overflow, 1U);
+    EXPECT_EQ(before.record_header.overflow, 1U);
+    const std::uint64_t revision = table.resident()->revision;
+    ASSERT_TRUE(table.collect().ok());
+    EXPECT_NE(table.resident()->revision, revision);
+    const Read after = read(*table.resident());
+    EXPECT_EQ(after.pair_header.overflow, 0U);
+    EXPECT_EQ(after.record_header.overflow, 0U);
+    EXPECT_EQ(after.pairs.size(), 120U * 119U);
+    EXPECT_EQ(table.size(), 120U * 119U);
+    ASSERT_TRUE(world().submit(table).ok());
+    EXPECT_EQ(read(*table.resident()).pairs.size(), 120U * 119U);
+    ASSERT_TRUE(table.collect().ok());
+}
+
+TEST_F(DevicePairResidents, OfNothingHaveACountOfZero) {
+    const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true});
+    EXPECT_EQ(table.resident().error().code(), StatusCode::not_ready);
+    add(square, {});
+    ASSERT_TRUE(world().update(table).ok());
+    EXPECT_EQ(table.resident().error().code(), StatusCode::not_ready);
+    add(square, {.translation = {5.0, 0.0}});
+    ASSERT_TRUE(world().update(table).ok());
+    EXPECT_EQ(read(*table.resident()).pairs.size(), 0U);
+    DevicePairTable rows_alone(PenetrationQuery{.tolerance = 0.05});
+    ASSERT_TRUE(world().update(rows_alone).ok());
+    EXPECT_EQ(rows_alone.resident().error().code(), StatusCode::invalid_query);
+}
+
+}  // namespace
+}  // namespace nearfield::test
