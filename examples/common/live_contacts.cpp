@@ -8,6 +8,8 @@ namespace {
 Settings settings(std::uint32_t frames_in_flight) {
     Settings settings;
     settings.batches_in_flight = frames_in_flight;
+    settings.techniques = {.raster = false};
+    settings.pipelines_on_demand = true;  // the window opens sooner
     return settings;
 }
 
