@@ -69,6 +69,19 @@ TEST_F(WorldFiles, TablesAreReadFromCsvAndNumPy) {
     }
 }
 
+TEST_F(WorldFiles, TablesOfSpreadsheetsHaveSemicolonsOrTabs) {
+    folder_.write("poses.csv", "x,y,degrees\n2.5,1,0\n4.5,1,0\n8,3.5,0\n");
+    folder_.write("semicolons.csv", "x;y;Grad\n2,5;1;0\n4,5; 1 ;0\n8;3.5;0,0\n");
+    folder_.write("tabs.csv", "\n2,5\t1\t0\r\n4.5\t1\t0\r\n8\t3,5\t0\r\n");
+    const std::string poses =
+        R"({"query": "poses", "shape": "square", "against": "placed", "poses_file": )";
+    const Json results = results_of(poses + R"("poses.csv"},)" + poses + R"("semicolons.csv"},)" +
+                                    poses + R"("tabs.csv"})");
+    EXPECT_EQ(results.at(0).at("records"), Json({false, true, true}));
+    EXPECT_EQ(results.at(1), results.at(0));
+    EXPECT_EQ(results.at(2), results.at(0));
+}
+
 TEST_F(WorldFiles, RecordsGoIntoCsv) {
     const Json result = results_of(
         R"({"query": "nearest", "points": [[4.5, 1.75], [90, 90]], "count": 2, "max_distance": 2.25,
@@ -144,7 +157,10 @@ TEST_F(WorldFiles, BadTablesAreRefusedByLineAndColumn) {
     expect_bad("csv", "x,1,2\n", {"t.csv:1:1: ", "\"x\" is not a finite number"});
     expect_bad("csv", "1,2,3\nx,y,degrees\n", {"t.csv:2:1: ", "\"x\" is not"});
     expect_bad("csv", "inf,nan,-Infinity\n4,5,6\n", {"t.csv:1:1: ", "\"inf\" is not a finite"});
-    expect_bad("csv", "1;2;3\n", {"t.csv:1:1: ", "\"1;2;3\" is not a finite number"});
+    expect_bad("csv", "1;2;3,4,5\n", {"t.csv:1:5: ", "\"3,4,5\" is not a finite number"});
+    expect_bad("csv", "1;2;1.234,5\n", {"t.csv:1:5: ", "\"1.234,5\" is not a finite number"});
+    expect_bad("csv", "1;2;3\n1,2,3\n", {"t.csv:2:1: ", "\"1,2,3\" is not a finite number"});
+    expect_bad("csv", "1 2 3\n", {"t.csv:1:1: ", "\"1 2 3\" is not a finite number"});
     expect_bad("csv", "\"1\",\"2\",\"3\"\n", {"t.csv:1:1: ", "is not a finite number"});
     expect_bad("csv", "1,2,inf\n", {"t.csv:1:5: ", "\"inf\" is not a finite number"});
     expect_bad("csv", "", {"is empty"});
@@ -154,10 +170,8 @@ TEST_F(WorldFiles, BadTablesAreRefusedByLineAndColumn) {
     expect_bad("npy", npy_of("(3,)", {1, 2, 3}), {"the shape is (3,)"});
     expect_bad("npy", npy_of("(2, 3)", {1, 2, 3}), {"needs 48 bytes, and there are 24"});
     expect_bad("npy", npy_of("(1, 3)", {1, NAN, 3}), {"row 0, column 1: not a finite"});
-    expect_bad("npy", npy("{'descr': '<i8', 'fortran_order': False, 'shape': (1, 3)}", {1, 2, 3}),
-               {"not float32 or float64"});
-    expect_bad("npy", npy("{'descr': '<f8', 'fortran_order': True, 'shape': (1, 3)}", {1, 2, 3}),
-               {"not in C order"});
+    expect_bad("npy", npy("{'descr': '<c8', 'fortran_order': False, 'shape': (1, 3)}", {1, 2, 3}),
+               {"neither float32, float64 nor whole numbers"});
     expect_bad("npy", npy("{'descr': '<f8', 'shape': (1, 3)}", {1, 2, 3}),
                {"lacks 'fortran_order'"});
     expect_bad("npy", npy_of("(4611686018427387904, 3)", {}), {"too large"});

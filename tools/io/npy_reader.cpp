@@ -1,13 +1,19 @@
 #include <tools/io/input_error.hpp>
 #include <tools/io/npy.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <charconv>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace nearfield::tools {
 namespace {
+
+bool is_one_of(char letter, std::string_view letters) {
+    return letters.find(letter) != std::string_view::npos;
+}
 
 /// Takes a file in NumPy's format apart.
 class NpyReader {
@@ -16,25 +22,21 @@ public:
 
     NpyArray read() {
         const std::string_view header = take_header();
-        const std::string_view type = entry(header, "'descr':");
-        const bool is_double = type.starts_with("'<f8'");
-        if (!is_double && !type.starts_with("'<f4'")) {
-            fail("its numbers are not float32 or float64 in little endian order");
-        }
-        if (!entry(header, "'fortran_order':").starts_with("False")) {
-            fail("it is not in C order");
-        }
+        const NumberType type = read_type(entry(header, "'descr':"));
+        const bool by_columns = entry(header, "'fortran_order':").starts_with("True");
         NpyArray array;
         array.shape = read_shape(entry(header, "'shape':"));
-        if (is_double) {
-            copy<double>(array);
-        } else {
-            copy<float>(array);
-        }
+        copy(type, by_columns, array);
         return array;
     }
 
 private:
+    struct NumberType {
+        char kind = 'f';       // or of whole numbers: i, u
+        std::size_t size = 8;  // bytes
+        bool is_big_endian = false;
+    };
+
     [[noreturn]] void fail(const std::string& reason) const {
         throw InputError(name_ + ": not an array that can be read: " + reason);
     }
@@ -93,25 +95,72 @@ private:
         return shape;
     }
 
-    template <class Number>
-    void copy(NpyArray& array) const {
+    NumberType read_type(std::string_view text) const {
+        text = text.substr(0, std::min(text.find('\'', 1), text.size()));
+        const bool is_known =
+            text.size() == 4 && is_one_of(text[1], "<>=|") &&
+            (text[2] == 'f' ? text[3] == '4' || text[3] == '8'
+                            : is_one_of(text[2], "iu") && is_one_of(text[3], "1248"));
+        if (!is_known) {
+            fail("its numbers are neither float32, float64 nor whole numbers of up to 64 bits");
+        }
+        return {text[2], static_cast<std::size_t>(text[3] - '0'), text[1] == '>'};
+    }
+
+    std::size_t count_of(const std::vector<std::size_t>& shape) const {
         std::size_t count = 1;
-        for (const std::size_t size : array.shape) {
+        for (const std::size_t size : shape) {
             if (size != 0 && count > std::numeric_limits<std::size_t>::max() / 16 / size) {
                 fail("its shape is too large");
             }
             count *= size;
         }
-        if (bytes_.size() != count * sizeof(Number)) {
+        return count;
+    }
+
+    double number_at(const NumberType& type, std::size_t place) const {
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < type.size; ++i) {
+            const std::size_t byte = type.is_big_endian ? type.size - 1 - i : i;
+            bits |= std::uint64_t{static_cast<unsigned char>(bytes_[place * type.size + byte])}
+                    << (8 * i);
+        }
+        if (type.kind == 'f') {
+            return type.size == 8 ? std::bit_cast<double>(bits)
+                                  : static_cast<double>(
+                                        std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        }
+        // The two's complement within its size.
+        const bool is_negative = type.kind == 'i' && (bits >> (8 * type.size - 1)) != 0;
+        const std::uint64_t all = ~std::uint64_t{0} >> (64 - 8 * type.size);
+        const std::uint64_t magnitude = is_negative ? (~bits & all) + 1 : bits;
+        if (magnitude > std::uint64_t{1} << 53U) {
+            fail("it has whole numbers above 2^53, which float64 does not hold");
+        }
+        return is_negative ? -static_cast<double>(magnitude) : static_cast<double>(magnitude);
+    }
+
+    void copy(const NumberType& type, bool by_columns, NpyArray& array) const {
+        const std::size_t count = count_of(array.shape);
+        if (bytes_.size() != count * type.size) {
             fail("its shape " + npy_shape_text(array.shape) + " needs " +
-                 std::to_string(count * sizeof(Number)) + " bytes, and there are " +
+                 std::to_string(count * type.size) + " bytes, and there are " +
                  std::to_string(bytes_.size()));
         }
         array.values.reserve(count);
+        std::vector<std::size_t> index(array.shape.size(), 0);
         for (std::size_t i = 0; i < count; ++i) {
-            Number number{};
-            std::memcpy(&number, bytes_.data() + i * sizeof(Number), sizeof(Number));
-            array.values.push_back(number);
+            std::size_t place = i;
+            if (by_columns) {
+                place = 0;
+                for (std::size_t k = index.size(); k-- > 0;) {
+                    place = place * array.shape[k] + index[k];
+                }
+            }
+            array.values.push_back(number_at(type, place));
+            for (std::size_t k = index.size(); k-- > 0 && ++index[k] == array.shape[k];) {
+                index[k] = 0;
+            }
         }
     }
 

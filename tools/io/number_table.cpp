@@ -23,6 +23,7 @@ public:
     }
 
     NumberTable read() {
+        separator_ = separator_of(text_);
         bool is_first = true;
         for (std::size_t start = 0; start < text_.size();) {
             const std::size_t end = std::min(text_.find('\n', start), text_.size());
@@ -39,12 +40,36 @@ public:
     }
 
 private:
-    static std::string_view next_field(std::string_view line, std::size_t start) {
-        return line.substr(start, std::min(line.find(',', start), line.size()) - start);
+    /// What separates the fields of a text: semicolons or tabs where the first line with something
+    /// in it has any, as spreadsheets write where a comma is the decimal point.
+    static char separator_of(std::string_view text) {
+        text.remove_prefix(std::min(text.find_first_not_of(" \r\n"), text.size()));
+        const std::string_view line = text.substr(0, text.find('\n'));
+        for (const char separator : {';', '\t'}) {
+            if (line.find(separator) != std::string_view::npos) {
+                return separator;
+            }
+        }
+        return ',';
+    }
+
+    [[nodiscard]] std::string_view next_field(std::string_view line, std::size_t start) const {
+        return line.substr(start, std::min(line.find(separator_, start), line.size()) - start);
+    }
+
+    /// Also with a decimal comma, unless commas separate fields.
+    [[nodiscard]] bool parse(std::string_view field, double& number) const {
+        const std::size_t comma = field.find(',');
+        if (comma == std::string_view::npos || field.find('.') != std::string_view::npos) {
+            return parse_finite(field, number);
+        }
+        std::string with_point(field);
+        with_point[comma] = '.';
+        return parse_finite(with_point, number);
     }
 
     /// True of a line in which nothing looks like a number.
-    static bool is_header(std::string_view line) {
+    [[nodiscard]] bool is_header(std::string_view line) const {
         for (std::size_t start = 0; start <= line.size();) {
             const std::string_view field = next_field(line, start);
             if (resembles_number(without_spaces(field))) {
@@ -78,7 +103,7 @@ private:
             if (count == table_.columns) {
                 fail(offset + start, "there are more numbers than that");
             }
-            if (!parse_finite(without_spaces(field), number)) {
+            if (!parse(without_spaces(field), number)) {
                 fail(offset + start,
                      "\"" + std::string(without_spaces(field)) + "\" is not a finite number");
             }
@@ -98,6 +123,7 @@ private:
     const std::string& path_;
     std::string_view text_;
     const std::string& form_;
+    char separator_ = ',';
     NumberTable table_;
 };
 
