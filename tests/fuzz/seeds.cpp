@@ -143,35 +143,39 @@ std::string lines(std::string words) {
 }
 
 FuzzFormat dxf() {
-    return {"f.dxf",
-            {lines("0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 2 b 10 "
-                   "1 20 1 0 CIRCLE 10 0 20 0 40 .5 0 ENDBLK 0 ENDSEC 0 SECTION 2 ENTITIES 0 "
-                   "INSERT 2 b 10 5 20 5 41 2 50 30 0 LWPOLYLINE 70 1 10 0 20 0 42 1 10 4 20 0 10 "
-                   "4 20 3 0 TEXT 1 t 0 ENDSEC 0 EOF"),
-             lines("0 SECTION 2 HEADER 9 $INSUNITS 70 1 0 ENDSEC 0 SECTION 2 ENTITIES 0 LINE 10 0 "
-                   "20 0 11 4 21 0 0 ARC 10 4 20 1 40 1 50 270 51 90 0 LINE 10 4 20 2 11 0 21 0 0 "
-                   "POLYLINE 70 1 0 VERTEX 10 5 20 5 42 -.3 0 VERTEX 10 7 20 5 0 VERTEX 10 7 20 7 "
-                   "0 SEQEND 0 ELLIPSE 10 0 20 9 11 1 21 0 40 .5 0 ENDSEC 0 EOF")},
-            {"0\n",
-             "\n",
-             lines("0 LINE"),
-             lines("0 ARC"),
-             lines("0 INSERT 2 b 10 0 20 0"),
-             lines("0 ENDSEC"),
-             lines("0 ENDBLK"),
-             lines("0 BLOCK 2 b"),
-             lines("0 VERTEX 10 1 20 1"),
-             lines("230 -1"),
-             lines("42 1"),
-             lines("70 1"),
-             "999\n",
-             lines("0 SPLINE"),
-             lines("70 3 71 2 44 5 45 6"),
-             lines("42 1e-300"),
-             "\x1A",
-             "\r\n",
-             "-",
-             lines("0 CIRCLE 10 0 20 0 40 1")}};
+    return {
+        "f.dxf",
+        {lines("0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 2 b 10 "
+               "1 20 1 0 CIRCLE 10 0 20 0 40 .5 0 ENDBLK 0 ENDSEC 0 SECTION 2 ENTITIES 0 "
+               "INSERT 2 b 10 5 20 5 41 2 50 30 0 LWPOLYLINE 70 1 10 0 20 0 42 1 10 4 20 0 10 "
+               "4 20 3 0 TEXT 1 t 0 ENDSEC 0 EOF"),
+         lines("0 SECTION 2 HEADER 9 $INSUNITS 70 1 0 ENDSEC 0 SECTION 2 ENTITIES 0 LINE 10 0 "
+               "20 0 11 4 21 0 0 ARC 10 4 20 1 40 1 50 270 51 90 0 LINE 10 4 20 2 11 0 21 0 0 "
+               "POLYLINE 70 1 0 VERTEX 10 5 20 5 42 -.3 0 VERTEX 10 7 20 5 0 VERTEX 10 7 20 7 "
+               "0 SEQEND 0 ELLIPSE 10 0 20 9 11 1 21 0 40 .5 0 ENDSEC 0 EOF"),
+         lines("0 SECTION 2 ENTITIES 0 SPLINE 70 8 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 "
+               "30 0 10 1 20 2 30 0 10 2 20 0 30 0 0 ELLIPSE 10 1 20 0 11 1 21 0 40 .5 41 0 42 "
+               "3.14159265358979 230 -1 0 ENDSEC 0 EOF")},
+        {"0\n",
+         "\n",
+         lines("0 LINE"),
+         lines("0 ARC"),
+         lines("0 INSERT 2 b 10 0 20 0"),
+         lines("0 ENDSEC"),
+         lines("0 ENDBLK"),
+         lines("0 BLOCK 2 b"),
+         lines("0 VERTEX 10 1 20 1"),
+         lines("230 -1"),
+         lines("42 1"),
+         lines("70 1"),
+         "999\n",
+         lines("0 SPLINE"),
+         lines("70 3 71 2 44 5 45 6"),
+         lines("42 1e-300"),
+         "\x1A",
+         "\r\n",
+         "-",
+         lines("0 CIRCLE 10 0 20 0 40 1")}};
 }
 
 FuzzFormat csv() {

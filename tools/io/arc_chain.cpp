@@ -96,6 +96,18 @@ private:
     std::map<Cell, std::vector<std::size_t>> ends_in_;  ///< those that are left
 };
 
+/// Gives a point the segment of another one, the other way round.
+void reverse_segment(const ArcChain::Point& segment, ArcChain::Point& to) {
+    to.bulge = -segment.bulge;
+    if (segment.controls) {
+        to.controls = {(*segment.controls)[1], (*segment.controls)[0]};
+    }
+    if (segment.ellipse) {
+        to.ellipse = segment.ellipse;
+        to.ellipse->counter_clockwise = !segment.ellipse->counter_clockwise;
+    }
+}
+
 /// Appends an open chain to another one, from its first point on or from its last one.
 void append_points(const ArcChain& chain, bool is_reversed, ArcChain& to) {
     const std::size_t count = chain.points.size();
@@ -104,11 +116,46 @@ void append_points(const ArcChain& chain, bool is_reversed, ArcChain& to) {
             to.points.push_back(chain.points[i]);
         } else {
             const std::size_t from = count - 1 - i;
-            to.points.push_back(
-                {chain.points[from].at, from == 0 ? 0.0 : -chain.points[from - 1].bulge});
+            to.points.push_back({chain.points[from].at});
+            if (from > 0) {
+                reverse_segment(chain.points[from - 1], to.points.back());
+            }
         }
     }
     to.points.back().bulge = 0.0;  // a straight line over the gap
+}
+
+void append_arc(const ArcChain::Point& from, const Vector2& to, CurvePath& path) {
+    const Vector2 way{to.x - from.at.x, to.y - from.at.y};
+    const double bulge = std::abs(from.bulge);
+    constexpr double nearly_straight = 1e-8;
+    if (bulge < nearly_straight) {
+        // The parabola has the tangents of the arc, and differs from it by less than rounding.
+        path.quadratic_to({from.at.x + 0.5 * way.x + from.bulge * way.y,
+                           from.at.y + 0.5 * way.y - from.bulge * way.x},
+                          to);
+        return;
+    }
+    const double radius = 0.25 * std::hypot(way.x, way.y) * (1.0 / bulge + bulge);
+    path.arc_to({.radius_x = radius,
+                 .radius_y = radius,
+                 .large = bulge > 1.0,
+                 .counter_clockwise = from.bulge > 0.0},
+                to);
+}
+
+void append_segment(const ArcChain::Point& from, const Vector2& to, CurvePath& path) {
+    if (from.controls) {
+        path.cubic_to((*from.controls)[0], (*from.controls)[1], to);
+    } else if (from.at == to) {
+        return;
+    } else if (from.ellipse) {
+        path.arc_to(*from.ellipse, to);
+    } else if (from.bulge == 0.0) {
+        path.line_to(to);
+    } else {
+        append_arc(from, to, path);
+    }
 }
 
 }  // namespace
@@ -160,10 +207,11 @@ std::size_t remove_repeated(std::vector<ArcChain>& chains) {
     using Segment = std::tuple<double, double, double, double, double>;
     std::set<Segment> seen;
     return std::erase_if(chains, [&](const ArcChain& chain) {
-        if (chain.closed || chain.points.size() != 2) {
+        if (chain.closed || chain.points.size() != 2 || chain.points[0].has_curve()) {
             return false;
         }
-        const auto& [from, bulge] = chain.points[0];
+        const Vector2& from = chain.points[0].at;
+        const double bulge = chain.points[0].bulge;
         const Vector2& to = chain.points[1].at;
         const bool is_forwards = std::pair(from.x, from.y) < std::pair(to.x, to.y);
         return !seen.insert(is_forwards ? Segment(from.x, from.y, to.x, to.y, bulge)
@@ -175,33 +223,7 @@ std::size_t remove_repeated(std::vector<ArcChain>& chains) {
 void append_chain(const ArcChain& chain, CurvePath& path) {
     path.move_to(chain.points.front().at);
     for (std::size_t i = 0; i < chain.points.size(); ++i) {
-        const Vector2& from = chain.points[i].at;
-        const Vector2& to = chain.points[(i + 1) % chain.points.size()].at;
-        const double bulge = std::abs(chain.points[i].bulge);
-        const double chord = std::hypot(to.x - from.x, to.y - from.y);
-        if (from == to) {
-            continue;
-        }
-        if (bulge == 0.0) {
-            path.line_to(to);
-            continue;
-        }
-        constexpr double nearly_straight = 1e-8;
-        if (bulge < nearly_straight) {
-            // The parabola has the tangents of the arc, and differs from it by less than rounding.
-            const Vector2 off{0.5 * chain.points[i].bulge * (to.y - from.y),
-                              -0.5 * chain.points[i].bulge * (to.x - from.x)};
-            path.quadratic_to({from.x + 0.5 * (to.x - from.x) + 2.0 * off.x,
-                               from.y + 0.5 * (to.y - from.y) + 2.0 * off.y},
-                              to);
-            continue;
-        }
-        const double radius = 0.25 * chord * (1.0 / bulge + bulge);
-        path.arc_to({.radius_x = radius,
-                     .radius_y = radius,
-                     .large = bulge > 1.0,
-                     .counter_clockwise = chain.points[i].bulge > 0.0},
-                    to);
+        append_segment(chain.points[i], chain.points[(i + 1) % chain.points.size()].at, path);
     }
     path.close();
 }

@@ -2,20 +2,28 @@
 
 #include <nearfield/curve.hpp>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace nearfield::tools {
 
-/// Straight lines and arcs of circles one after the other, as CAD programs have them.
+/// Straight lines, arcs and Bézier curves one after the other, as CAD programs have them.
 struct ArcChain {
-    /// A point, and the bulge of what follows it: the tangent of a quarter of the arc's angle,
-    /// positive counter-clockwise, 0 for a straight line. That of the last one is of the segment
-    /// back to the first one, if the chain is closed.
+    /// A point, and the segment that follows it; that of the last one leads back to the first one,
+    /// if the chain is closed.
     struct Point {
         Vector2 at;
+        /// Of an arc of a circle: the tangent of a quarter of its angle, positive
+        /// counter-clockwise; 0 for a straight line.
         double bulge = 0.0;
+        /// Or the inner control points of a cubic Bézier curve,
+        std::optional<std::array<Vector2, 2>> controls = std::nullopt;
+        /// or an arc of an ellipse.
+        std::optional<EllipticArc> ellipse = std::nullopt;
+
+        [[nodiscard]] bool has_curve() const { return controls || ellipse; }
     };
     std::vector<Point> points;
     bool closed = false;

@@ -3,8 +3,8 @@
 
 #include <tools/io/arc_chain.hpp>
 #include <tools/io/dxf.hpp>
-#include <tools/io/dxf_groups.hpp>
-#include <tools/io/values.hpp>
+#include <tools/io/dxf_curves.hpp>
+#include <tools/io/dxf_values.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,29 +29,28 @@ struct DxfBlock {
     std::size_t segments = 0;  ///< of the path
 };
 
-class DxfReader {
+class DxfReader : private DxfValues {
     // Blocks in blocks multiply: a small file must not take all memory.
     static constexpr std::size_t most_segments = std::size_t{1} << 18U;
 
 public:
     DxfReader(const std::string& text, const std::string& file, SkippedParts& skipped)
-        : groups_(text, file), skipped_(skipped) {}
+        : DxfValues(text, file), skipped_(skipped) {}
 
     CurvePath read(LengthUnit unit) {
-        const std::vector<DxfEntity> all = read_dxf_entities(groups_);
+        const std::vector<DxfEntity> all = read_dxf_entities(groups());
         if (all.empty() || all.front().type != "SECTION") {
-            groups_.fail(0, "a DXF file begins with a section");
+            fail(0, "a DXF file begins with a section");
         }
         sort_into_blocks(all);
         CurvePath path = path_of(model_, 0);
         if (path.contours().empty()) {
-            groups_.fail(0,
-                         "has no outline" + (skipped_.empty() ? "" : ", only " + skipped_.text()));
+            fail(0, "has no outline" + (skipped_.empty() ? "" : ", only " + skipped_.text()));
         }
         if (unit != LengthUnit::user) {
             const double scale = pixels_ / pixels_per(unit);
             if (scale == 0.0) {
-                groups_.fail(0, "states no unit ($INSUNITS 1 to 14); --units needs one");
+                fail(0, "states no unit ($INSUNITS 1 to 14); --units needs one");
             }
             path.transform({{scale, 0.0}, {0.0, scale}, {}});
         }
@@ -59,51 +58,10 @@ public:
     }
 
 private:
-    [[noreturn]] void fail(const DxfEntity& entity, const std::string& reason) const {
-        groups_.fail(entity.offset, std::string(entity.type) + ": " + reason);
-    }
-
-    [[nodiscard]] double number(const DxfGroup& group) const {
-        double number = 0.0;
-        if (!parse_finite(group.value, number)) {
-            groups_.fail(group.offset, "group " + std::to_string(group.code) + ": \"" +
-                                           std::string(group.value.substr(0, 40)) +
-                                           "\" is not a finite number");
-        }
-        if (std::abs(number) > largest_coordinate) {
-            groups_.fail(group.offset, "group " + std::to_string(group.code) +
-                                           ": numbers must be at most 1e12 in magnitude");
-        }
-        return number;
-    }
-
-    /// The number of the first group with a code.
-    [[nodiscard]] double number(const DxfEntity& entity, int code) const {
-        const DxfGroup* const group = entity.find(code);
-        if (group == nullptr) {
-            fail(entity, "lacks group " + std::to_string(code));
-        }
-        return number(*group);
-    }
-
-    [[nodiscard]] double number(const DxfEntity& entity, int code, double usual) const {
-        const DxfGroup* const group = entity.find(code);
-        return group == nullptr ? usual : number(*group);
-    }
-
-    [[nodiscard]] bool has_flag(const DxfEntity& entity, int code, int flag) const {
-        const double flags = number(entity, code, 0.0);
-        return std::abs(flags) <= 0x1p30 && (static_cast<int>(flags) & flag) != 0;
-    }
-
     /// A number of copies, at least 1; of those that are too many, as many as are refused.
     [[nodiscard]] std::size_t count(const DxfEntity& entity, int code) const {
         const double most = static_cast<double>(most_segments) + 1.0;
         return static_cast<std::size_t>(std::clamp(number(entity, code, 1.0), 1.0, most));
-    }
-
-    [[nodiscard]] Vector2 point(const DxfEntity& entity, int code) const {
-        return {number(entity, code), number(entity, code + 10)};
     }
 
     void sort_into_blocks(const std::vector<DxfEntity>& all) {
@@ -131,8 +89,8 @@ private:
             }
         }
         if (!section.empty()) {
-            groups_.fail(all.back().offset,
-                         "the file ends within its section " + std::string(section.substr(0, 40)));
+            fail(all.back().offset,
+                 "the file ends within its section " + std::string(section.substr(0, 40)));
         }
     }
 
@@ -153,7 +111,7 @@ private:
     /// The outlines of a block, for which no block may be needed that needs it.
     const CurvePath& path_of(DxfBlock& block, std::size_t offset) {
         if (block.state == DxfBlock::State::in_progress) {
-            groups_.fail(offset, "INSERT: the block holds itself");
+            fail(offset, "INSERT: the block holds itself");
         }
         if (block.state == DxfBlock::State::unread) {
             block.state = DxfBlock::State::in_progress;
@@ -183,7 +141,7 @@ private:
             std::snprintf(text, sizeof text,
                           "the outline is open: nothing continues it at (%.17g, %.17g)", end->at.x,
                           end->at.y);
-            groups_.fail(end->offset, text);
+            fail(end->offset, text);
         }
     }
 
@@ -216,7 +174,9 @@ private:
         } else if (type == "CIRCLE") {
             add_circle(block, entity);
         } else if (type == "ELLIPSE") {
-            add_ellipse(block, entity);
+            add_ellipse(block, entity, chains);
+        } else if (type == "SPLINE") {
+            add(dxf_spline(*this, entity), chains);
         } else if (type == "INSERT") {
             insert(block, entity);
         } else {
@@ -248,28 +208,8 @@ private:
         ++block.segments;
     }
 
-    /// 1, or -1 for an entity that is seen from behind, whose x points the other way.
-    [[nodiscard]] double direction(const DxfEntity& entity) const {
-        constexpr double rounding = 1e-9;
-        const double z = number(entity, 230, 1.0);
-        if (std::abs(number(entity, 210, 0.0)) > rounding ||
-            std::abs(number(entity, 220, 0.0)) > rounding ||
-            std::abs(std::abs(z) - 1.0) > rounding) {
-            fail(entity, "does not lie in the plane of x and y");
-        }
-        return z < 0.0 ? -1.0 : 1.0;
-    }
-
     [[nodiscard]] Vector2 placed(const DxfEntity& entity, const Vector2& point) const {
         return {direction(entity) * point.x, point.y};
-    }
-
-    [[nodiscard]] double radius(const DxfEntity& entity) const {
-        const double radius = number(entity, 40);
-        if (!(radius >= 0.0)) {
-            fail(entity, "its radius is below 0");
-        }
-        return radius;
     }
 
     [[nodiscard]] ArcChain lightweight(const DxfEntity& entity) const {
@@ -330,20 +270,14 @@ private:
                           .offset = entity.offset});
     }
 
-    void add_ellipse(DxfBlock& block, const DxfEntity& entity) const {
-        const Vector2 axis = point(entity, 11);
-        const double length = std::hypot(axis.x, axis.y);
-        const double ratio = number(entity, 40);
-        const double sweep = number(entity, 42, 2.0 * std::numbers::pi) - number(entity, 41, 0.0);
-        if (!(length > 0.0 && ratio > 0.0)) {
-            fail(entity, "its axes are not above 0");
+    void add_ellipse(DxfBlock& block, const DxfEntity& entity,
+                     std::vector<ArcChain>& chains) const {
+        const DxfEllipse ellipse = dxf_ellipse(*this, entity);
+        if (ellipse.arc) {
+            chains.push_back(*ellipse.arc);
+            return;
         }
-        constexpr double rounding = 1e-4;  // of files with few digits
-        if (std::abs(sweep - 2.0 * std::numbers::pi) > rounding) {
-            fail(entity, "is an arc, which is not read; convert it to a polyline");
-        }
-        static_cast<void>(direction(entity));  // its points are not seen from behind
-        block.path.ellipse(point(entity, 10), length, ratio * length, arc_tangent(axis.y, axis.x));
+        block.path.ellipse(ellipse.centre, ellipse.length, ellipse.width, ellipse.rotation);
         ++block.segments;
     }
 
@@ -382,7 +316,6 @@ private:
         }
     }
 
-    DxfGroups groups_;
     SkippedParts& skipped_;
     std::map<std::string, DxfBlock> blocks_;
     std::set<std::string> hidden_layers_;  ///< off or frozen

@@ -1,4 +1,4 @@
-#include "support.hpp"
+#include "dxf_text.hpp"
 
 #include <gtest/gtest.h>
 #include <tools/io/arc_chain.hpp>
@@ -15,37 +15,6 @@
 
 namespace nearfield::tools {
 namespace {
-
-/// "0 LINE 10 1.5 ..." as a file has it, a word a line.
-std::string lines(const std::string& words) {
-    std::istringstream stream(words);
-    std::string text;
-    for (std::string word; stream >> word;) {
-        text += word + "\r\n";
-    }
-    return text;
-}
-
-/// A drawing of entities in model space.
-std::string drawing(const std::string& entities, const std::string& before = "") {
-    return lines(before + " 0 SECTION 2 ENTITIES " + entities + " 0 ENDSEC 0 EOF");
-}
-
-std::string line(const Vector2& a, const Vector2& b) {
-    std::ostringstream text;
-    text.precision(17);
-    text << " 0 LINE 8 0 10 " << a.x << " 20 " << a.y << " 11 " << b.x << " 21 " << b.y;
-    return text.str();
-}
-
-CurvePath read(const std::string& text, LengthUnit unit = LengthUnit::user) {
-    SkippedParts skipped;
-    return parse_dxf(text, "a.dxf", skipped, unit);
-}
-
-std::string refusal(const std::string& text, LengthUnit unit = LengthUnit::user) {
-    return input_error([&] { return read(text, unit); });
-}
 
 /// Areas of the contours, positive counter-clockwise.
 std::vector<double> areas(const CurvePath& path, double deviation = 1e-7) {
@@ -73,20 +42,22 @@ constexpr double pi = std::numbers::pi;
 
 TEST(ToolsDxf, PolylinesWithBulges) {
     // A stadium: two half circles, of which a bulge of 1 is one.
-    EXPECT_NEAR(area(read(drawing("0 LWPOLYLINE 90 4 70 1 43 0.5 10 0 20 0 10 4 20 0 42 1 10 4 20 "
+    EXPECT_NEAR(
+        area(read_drawing(drawing("0 LWPOLYLINE 90 4 70 1 43 0.5 10 0 20 0 10 4 20 0 42 1 10 4 20 "
                                   "2 10 0 20 2 42 1"))),
-                8.0 + pi, 1e-5);
+        8.0 + pi, 1e-5);
     // A quarter circle cut off; the bulge is negative clockwise.
     const double quarter = std::tan(pi / 8.0);
-    EXPECT_NEAR(area(read(drawing("0 LWPOLYLINE 70 1 10 0 20 0 10 1 20 0 42 " +
-                                  std::to_string(-quarter) + " 10 0 20 1"))),
+    EXPECT_NEAR(area(read_drawing(drawing("0 LWPOLYLINE 70 1 10 0 20 0 10 1 20 0 42 " +
+                                          std::to_string(-quarter) + " 10 0 20 1"))),
                 1.0 - pi / 4.0, 1e-5);
-    EXPECT_NEAR(area(read(drawing("0 POLYLINE 66 1 70 1 10 0 20 0 30 0 0 VERTEX 10 0 20 0 42 1 0 "
+    EXPECT_NEAR(
+        area(read_drawing(drawing("0 POLYLINE 66 1 70 1 10 0 20 0 30 0 0 VERTEX 10 0 20 0 42 1 0 "
                                   "VERTEX 10 2 20 0 42 1 0 SEQEND 8 0"))),
-                pi, 1e-5);
+        pi, 1e-5);
     // Seen from behind, x points the other way.
-    const CurvePath behind =
-        read(drawing("0 LWPOLYLINE 70 1 230 -1 10 0 20 0 10 4 20 0 42 1 10 4 20 2 10 0 20 2"));
+    const CurvePath behind = read_drawing(
+        drawing("0 LWPOLYLINE 70 1 230 -1 10 0 20 0 10 4 20 0 42 1 10 4 20 2 10 0 20 2"));
     EXPECT_NEAR(area(behind), -(8.0 + pi / 2.0), 1e-5);
     EXPECT_EQ(behind.contours()[0].segments[0].to, (Vector2{-4.0, 0.0}));
 }
@@ -94,18 +65,19 @@ TEST(ToolsDxf, PolylinesWithBulges) {
 TEST(ToolsDxf, LinesAndArcsAreJoinedToLoops) {
     const std::string rounded = " 0 ARC 10 4 20 1 40 1 50 270 51 90" + line({4, 2}, {0, 2}) +
                                 line({4, 0}, {0, 0}) + " 0 ARC 10 0 20 1 40 1 50 90 51 -90";
-    EXPECT_NEAR(std::abs(area(read(drawing(rounded)))), 8.0 + pi, 1e-5);
+    EXPECT_NEAR(std::abs(area(read_drawing(drawing(rounded)))), 8.0 + pi, 1e-5);
     // A square of two open polylines, and a hole in it.
-    const CurvePath holed = read(
+    const CurvePath holed = read_drawing(
         drawing("0 CIRCLE 10 1 20 1 40 0.5 0 LWPOLYLINE 10 0 20 0 10 2 20 0 10 2 20 2 0 POLYLINE "
                 "70 0 0 VERTEX 10 0 20 0 0 VERTEX 10 0 20 2 0 VERTEX 10 2 20 2 0 SEQEND"));
     const std::vector<double> found = areas(holed);
     ASSERT_EQ(found.size(), 2U);
     EXPECT_NEAR(found[0], pi / 4.0, 1e-5);
     EXPECT_NEAR(std::abs(found[1]), 4.0, 1e-12);
-    EXPECT_NEAR(area(read(drawing("0 ARC 10 1 20 2 40 3 50 30 51 390"))), 9.0 * pi, 1e-4);
-    EXPECT_NEAR(area(read(drawing("0 ELLIPSE 10 1 20 2 11 0 21 3 40 0.5 41 0 42 6.283185307"))),
-                4.5 * pi, 1e-4);
+    EXPECT_NEAR(area(read_drawing(drawing("0 ARC 10 1 20 2 40 3 50 30 51 390"))), 9.0 * pi, 1e-4);
+    EXPECT_NEAR(
+        area(read_drawing(drawing("0 ELLIPSE 10 1 20 2 11 0 21 3 40 0.5 41 0 42 6.283185307"))),
+        4.5 * pi, 1e-4);
 }
 
 TEST(ToolsDxf, RandomLoopsInAnyOrder) {
@@ -168,7 +140,7 @@ TEST(ToolsDxf, RandomLoopsInAnyOrder) {
             return found;
         };
         const std::vector<double> expected = sorted(wanted);
-        const std::vector<double> found = sorted(read(drawing(entities)));
+        const std::vector<double> found = sorted(read_drawing(drawing(entities)));
         ASSERT_EQ(found.size(), expected.size()) << seed;
         for (std::size_t i = 0; i < found.size(); ++i) {
             EXPECT_NEAR(found[i], expected[i], 2e-3 * scale * scale) << seed;
@@ -183,14 +155,15 @@ TEST(ToolsDxf, BlocksAreInserted) {
         "0 ENDBLK "
         "0 BLOCK 2 pair 10 0 20 0 0 INSERT 2 square 10 0 20 0 0 INSERT 2 square 10 9 20 0 41 -1 "
         "0 ENDBLK 0 ENDSEC");
-    const CurvePath turned = read(blocks + drawing("0 INSERT 2 square 10 5 20 6 41 2 42 3 50 90"));
+    const CurvePath turned =
+        read_drawing(blocks + drawing("0 INSERT 2 square 10 5 20 6 41 2 42 3 50 90"));
     EXPECT_NEAR(area(turned), 12.0, 1e-9);
     // Base (1, 1) to (5, 6); (3, 1) is 2 * 2 along the turned x axis.
     EXPECT_NEAR(turned.contours()[0].segments[0].to.x, 5.0, 1e-12);
     EXPECT_NEAR(turned.contours()[0].segments[0].to.y, 10.0, 1e-12);
-    EXPECT_EQ(areas(read(blocks + drawing("0 INSERT 2 pair 10 0 20 0"))),
+    EXPECT_EQ(areas(read_drawing(blocks + drawing("0 INSERT 2 pair 10 0 20 0"))),
               (std::vector<double>{2.0, -2.0}));
-    const CurvePath behind = read(blocks + drawing("0 INSERT 2 square 10 5 20 6 230 -1"));
+    const CurvePath behind = read_drawing(blocks + drawing("0 INSERT 2 square 10 5 20 6 230 -1"));
     EXPECT_EQ(behind.contours()[0].start, (Vector2{-5.0, 6.0}));
     EXPECT_EQ(behind.contours()[0].segments[0].to, (Vector2{-7.0, 6.0}));
 }
@@ -198,8 +171,9 @@ TEST(ToolsDxf, BlocksAreInserted) {
 TEST(ToolsDxf, UnitsAreTheHeaders) {
     const std::string inches = "0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 9 $INSUNITS 70 1 0 ENDSEC";
     const std::string circle = "0 CIRCLE 10 0 20 0 40 1";
-    EXPECT_NEAR(area(read(drawing(circle, inches), LengthUnit::mm)), pi * 25.4 * 25.4, 0.01);
-    EXPECT_NEAR(area(read(drawing(circle, inches))), pi, 1e-5);
+    EXPECT_NEAR(area(read_drawing(drawing(circle, inches), LengthUnit::mm)), pi * 25.4 * 25.4,
+                0.01);
+    EXPECT_NEAR(area(read_drawing(drawing(circle, inches))), pi, 1e-5);
     EXPECT_NE(refusal(drawing(circle), LengthUnit::mm).find("states no unit"), std::string::npos);
 }
 
@@ -247,7 +221,7 @@ TEST(ToolsDxf, SlightBulgesAreNearlyStraight) {
         text.precision(17);
         text << "0 LWPOLYLINE 70 1 10 0 20 0 42 " << bulge << " 10 10 20 0 10 10 20 10";
         // A positive bulge adds a segment of a circle below, 2/3 of chord and sagitta.
-        EXPECT_NEAR(areas(read(drawing(text.str())), 1e-10)[0],
+        EXPECT_NEAR(areas(read_drawing(drawing(text.str())), 1e-10)[0],
                     50.0 + 2.0 / 3.0 * 10.0 * 5.0 * bulge, 2e-9)
             << bulge;
     }
@@ -258,7 +232,7 @@ TEST(ToolsDxf, InsertsMayBeRowsAndColumnsOfABlockInAnyCase) {
         "0 SECTION 2 BLOCKS 0 BLOCK 2 Dot 10 0 20 0 0 CIRCLE 10 0 20 0 40 1 0 ENDBLK 0 "
         "ENDSEC");
     const CurvePath path =
-        read(blocks + drawing("0 INSERT 2 dOT 10 5 20 6 50 90 70 3 71 2 44 10 45 20"));
+        read_drawing(blocks + drawing("0 INSERT 2 dOT 10 5 20 6 50 90 70 3 71 2 44 10 45 20"));
     ASSERT_EQ(path.contours().size(), 6U);
     // Columns go along the turned x axis, rows to its left.
     EXPECT_NEAR(path.contours()[2].start.y - path.contours()[0].start.y, 20.0, 1e-12);
@@ -270,18 +244,18 @@ TEST(ToolsDxf, InsertsMayBeRowsAndColumnsOfABlockInAnyCase) {
 
 TEST(ToolsDxf, PlanesAreThoseOfTheAxesUpToRounding) {
     const std::string circle = "0 CIRCLE 10 1 20 0 40 1 210 1e-17 220 -1.2e-16 230 ";
-    EXPECT_NEAR(area(read(drawing(circle + "0.9999999999"))), pi, 1e-5);
+    EXPECT_NEAR(area(read_drawing(drawing(circle + "0.9999999999"))), pi, 1e-5);
     EXPECT_EQ(refusal(drawing(circle + "0.99")),
               "a.dxf:6:1: CIRCLE: does not lie in the plane of x and y");
     EXPECT_EQ(refusal(drawing("0 LINE 10 0 20 0 30 0 11 1 21 0 31 5")),
               "a.dxf:6:1: LINE: does not lie in the plane of x and y");
-    EXPECT_NEAR(area(read(drawing("0 CIRCLE 10 0 20 0 40 1") + "\x1A")), pi, 1e-5);
+    EXPECT_NEAR(area(read_drawing(drawing("0 CIRCLE 10 0 20 0 40 1") + "\x1A")), pi, 1e-5);
 }
 
 TEST(ToolsDxf, RefusalsSayWhere) {
     const std::string circle = " 0 CIRCLE 10 0 20 0 40 1";
-    EXPECT_EQ(refusal(drawing("0 SPLINE 70 8" + circle)),
-              "a.dxf:6:1: SPLINE: is not read; convert it to polylines, or remove it");
+    EXPECT_EQ(refusal(drawing("0 REGION 70 8" + circle)),
+              "a.dxf:6:1: REGION: is not read; convert it to polylines, or remove it");
     EXPECT_EQ(refusal(drawing(line({0, 0}, {1, 0}) + line({1, 0}, {1, 1}))),
               "a.dxf:6:1: the outline is open: nothing continues it at (0, 0)");
     // The first line is continued at both ends.
