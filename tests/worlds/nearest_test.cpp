@@ -236,5 +236,26 @@ TEST(WorldNearestTies, HaveThoseInsideFirstTheDeepestAtTheHead) {
     EXPECT_EQ(hits[2].instance, InstanceHandle());
 }
 
+/// They are sorted in blocks of 2^18.
+TEST(WorldNearestPoints, OfManyBlocksAreWhereTheyWereAsked) {
+    Scene scene(squares({{0, 0}, {3, 0}, {0, 3}, {3, 3}}));
+    Random random(91);
+    std::vector<Vector2> points((1U << 19U) + 100);
+    for (Vector2& point : points) {
+        point = {random.between(-2.0, 6.0), random.between(-2.0, 6.0)};
+    }
+    std::vector<NearestHit> hits(points.size());
+    ASSERT_TRUE(scene.world().find_nearest({}, points, hits).ok());
+    for (std::size_t i = 0; i < points.size(); i += 1 + i / 100) {
+        NearestHit alone;
+        ASSERT_TRUE(scene.world().find_nearest({}, {&points[i], 1}, {&alone, 1}).ok());
+        ASSERT_EQ(hits[i].instance, alone.instance) << i;
+        ASSERT_EQ(hits[i].distance, alone.distance) << i;
+    }
+    for (std::size_t i = points.size() - 100; i < points.size(); ++i) {
+        ASSERT_NE(hits[i].instance, InstanceHandle()) << i;
+    }
+}
+
 }  // namespace
 }  // namespace nearfield::test

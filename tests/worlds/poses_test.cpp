@@ -369,5 +369,28 @@ TEST(WorldClearances, CountTheVerticesOfTheInstanceToo) {
     EXPECT_EQ(clearance.direction, (Vector2{-1.0, 0.0}));
 }
 
+/// What was nearest before is left out, and then gone.
+TEST(WorldClearances, DoNotTellOfWhatWasNearestBefore) {
+    const Rings square = rectangle({0.0, 0.0}, {1.0, 1.0});
+    Scene scene({{"near", square, {{2.0, 0.0}, 0.0}}, {"far", square, {{5.0, 0.0}, 0.0}}});
+    const ShapeHandle own = scene.add_shape(square);
+    const auto expect = [&](const WorldFilter& filter, InstanceHandle instance, double distance) {
+        ClearanceQuery query{.shape = own};
+        query.filter = filter;
+        const Pose pose{};
+        Clearance clearance;
+        const Status status = scene.world().find_clearances(query, {&pose, 1}, {&clearance, 1});
+        ASSERT_TRUE(status.ok()) << status.text();
+        EXPECT_EQ(clearance.instance, instance);
+        EXPECT_EQ(clearance.distance, distance);
+    };
+    const InstanceHandle near = scene.handle(0);
+    expect({}, near, 1.0);
+    expect({.ignored = near}, scene.handle(1), 4.0);
+    expect({}, near, 1.0);
+    ASSERT_TRUE(scene.world().remove(near).ok());
+    expect({}, scene.handle(1), 4.0);
+}
+
 }  // namespace
 }  // namespace nearfield::test
