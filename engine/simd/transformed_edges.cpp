@@ -213,8 +213,9 @@ std::uint32_t TransformedInstances::find_or_add(const Polygon& polygon, const Po
     }
     std::uint32_t& slot = slots_[slot_of(polygon, pose)];
     if (slot == empty_slot) {
-        slot = static_cast<std::uint32_t>(entries_.size());
+        const auto index = static_cast<std::uint32_t>(entries_.size());
         add(TransformedPolygon(polygon, pose), pose, false);
+        slot = index;  // last: memory may have run out
     }
     return slot;
 }
@@ -259,12 +260,12 @@ void TransformedInstances::find_moved_arrays(Entry& entry) {
 
 std::size_t TransformedInstances::grow(Entry& entry, std::size_t by) {
     Memory& memory = memory_of(entry);
-    const std::size_t first = std::exchange(memory.used, memory.used + by);
-    if (memory.used > memory.coordinates.size()) {
-        memory.coordinates.resize(std::max(memory.used, 2 * memory.coordinates.size()));
+    const std::size_t end = memory.used + by;
+    if (end > memory.coordinates.size()) {
+        memory.coordinates.resize(std::max(end, 2 * memory.coordinates.size()));
         find_moved_arrays(entry);
     }
-    return first;
+    return std::exchange(memory.used, end);  // last: memory may have run out
 }
 
 std::uint32_t TransformedInstances::place(const TransformedPolygon& placed) {
