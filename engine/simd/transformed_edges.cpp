@@ -140,17 +140,16 @@ bool TransformedInstances::keeps_small_ones() {
 
 void TransformedInstances::begin_batch() {
     const bool keeps_small = keeps_small_ones();
-    const auto is_kept = [=](const Entry& entry) {
-        return (entry.own ? entry.is_placed : keeps_small && entry.first != nowhere) &&
-               can_be_found(entry);
-    };
     for (Entry& entry : entries_) {
-        if (entry.own && !is_kept(entry)) {
+        const bool may_stay = entry.own ? entry.is_placed : keeps_small && entry.first != nowhere;
+        entry.is_kept = may_stay && can_be_found(entry);
+        if (entry.own && !entry.is_kept) {
             entry.own->clear();
             spare_.push_back(std::move(entry.own));
         }
     }
-    const bool are_all_kept = std::erase_if(entries_, std::not_fn(is_kept)) == 0;
+    const auto is_forgotten = [](const Entry& entry) { return !entry.is_kept; };
+    const bool are_all_kept = std::erase_if(entries_, is_forgotten) == 0;
     kept_ = entries_.size();
     for (Entry& entry : entries_) {
         entry.is_placed = false;
@@ -194,7 +193,8 @@ std::size_t TransformedInstances::slot_of(const Polygon& polygon, const Pose& po
 
 std::uint32_t TransformedInstances::place(const Polygon& polygon, const Pose& pose) {
     for (const std::uint32_t index : std::array(recent_)) {
-        if (index < entries_.size() && is(entries_[index], polygon, pose)) {
+        if (index < entries_.size() && !entries_[index].is_nameless &&
+            is(entries_[index], polygon, pose)) {
             // An instance that recurs in successive pairs is kept.
             recent_ = {recent_[0] == index ? recent_[1] : recent_[0], index};
             entries_[index].is_placed = true;
@@ -279,6 +279,7 @@ void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pos
     Entry& entry = entries_.emplace_back(Entry{pose,
                                                polygon.revision(),
                                                nullptr,
+                                               true,
                                                true,
                                                is_nameless,
                                                nowhere,

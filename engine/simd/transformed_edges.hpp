@@ -102,6 +102,7 @@ private:
         std::uint64_t revision;       // of the polygon
         std::unique_ptr<Memory> own;  // null: its arrays are in the memory that entries share
         bool is_placed;               // since the last batch began
+        bool is_kept;                 // where that batch began
         bool is_nameless;             // no place() finds it
         std::size_t first;            // of its arrays, which are consecutive
         std::size_t first_boxes;      // `nowhere`, like the arrays, until they exist

@@ -312,27 +312,33 @@ TEST(TransformedInstances, AreTheSameHoweverManyAreKept) {
     const auto any = [&]() -> Placed {
         return {random.below(6), {{random.between(-9.0, 9.0), 0.0}, random.between(-4.0, 4.0)}};
     };
-    std::vector<Placed> batch(40);
-    std::generate(batch.begin(), batch.end(), any);
+    std::vector<Placed> known(60);
+    std::generate(known.begin(), known.end(), any);
     simd::TransformedInstances kept;
     std::size_t most_bytes = 0;
-    for (int number = 0; number < 300; ++number) {
+    for (int number = 0; number < 600; ++number) {
         SCOPED_TRACE(number);
         kept.begin_batch();
-        const std::uint32_t changed = random.below(random.below(5) == 0 ? 41 : 4);
-        for (std::uint32_t i = 0; i < changed; ++i) {
-            batch[random.below(40)] = any();
+        for (std::uint32_t i = random.below(random.below(5) == 0 ? 61 : 4); i > 0; --i) {
+            known[random.below(60)] = any();
         }
         if (random.below(10) == 0) {
             change(polygons[random.below(6)]);
         }
+        // Some are left out, and come back later.
+        const std::uint32_t left_out = random.below(8);
         simd::TransformedInstances fresh;
-        for (const Placed& one : batch) {
+        for (const Placed& one : known) {
+            if (random.below(10) < left_out) {
+                continue;
+            }
             const Polygon& polygon = polygons[one.polygon];
             const std::uint32_t in_kept = kept.place(polygon, one.pose);
             const std::uint32_t in_fresh = fresh.place(polygon, one.pose);
-            if (random.below(2) == 0) {
+            const bool is_complete = random.below(2) == 0;
+            if (is_complete) {
                 kept.complete(in_kept);
+                fresh.complete(in_fresh);
             }
             const simd::TransformedEdges& found = kept[in_kept];
             const simd::TransformedEdges& truth = fresh[in_fresh];
@@ -341,7 +347,8 @@ TEST(TransformedInstances, AreTheSameHoweverManyAreKept) {
             ASSERT_TRUE(found.box.isApprox(truth.box, 0.0));
             ASSERT_EQ(found.rounding, truth.rounding);
             ASSERT_EQ(found.magnitude, truth.magnitude);
-            for (std::uint32_t edge = 0; simd::is_small(found) && edge < found.count; ++edge) {
+            const bool has_arrays = simd::is_small(found) || is_complete;
+            for (std::uint32_t edge = 0; has_arrays && edge < found.count; ++edge) {
                 ASSERT_EQ(found.start(edge), truth.start(edge));
                 ASSERT_EQ(found.end(edge), truth.end(edge));
             }
