@@ -65,7 +65,8 @@ void main() {
     feature |= (record.w & point_unique) != 0u ? nearfield_unique_flag : 0u;
     feature |= is_inside && size > touching_depth_of_b ? nearfield_inside_flag : 0u;
     uint flags = touches ? nearfield_touching_flag : 0u;
-    flags |= is_unfinished ? nearfield_undecided_flag : 0u;
+    bool is_doubtful = is_unfinished || (record.w & point_doubtful) != 0u;
+    flags |= is_doubtful ? nearfield_undecided_flag : 0u;
     records[index] = NearfieldPairRecord(
         to_world * p + frame.zw, to_world * nearest + frame.zw,
         touches ? vec2(0.0) : (is_inside ? way : -way) / distance, distance, feature, record.y, flags);

@@ -70,7 +70,7 @@ struct PairRowData {
     // Contacts: those of B that were found
     uint first_of_b NEARFIELD_DEFAULT(0);
     uint count_of_b NEARFIELD_DEFAULT(0);
-    uint deepest NEARFIELD_DEFAULT(0);  // penetrations: the number of its record; contacts: no_deepest
+    uint deepest NEARFIELD_DEFAULT(0);  // its record; of contacts: no_deepest
     uint unused[1] NEARFIELD_DEFAULT({});
 };
 const uint no_deepest = 0xffffffffu;

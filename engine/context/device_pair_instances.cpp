@@ -94,7 +94,7 @@ void DevicePairTableBase::State::place(const world::Instances& instances,
         entry.place = place;
         data.rounding = has_tolerance ? 0.0F : plan::rounding_at(magnitude);
         const bool is_resolved =
-            !has_tolerance || question_.tolerance >= plan::smallest_tolerance(magnitude);
+            question_.resolved == 0.0 || question_.resolved >= plan::smallest_tolerance(magnitude);
         data.left_to_cpu |= is_resolved ? 0U : plan::left_by_place;
         buffers_->set_instance(numbers[i], data);
     }

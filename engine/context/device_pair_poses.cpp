@@ -38,8 +38,8 @@ void DevicePairTableBase::State::find_poses(const char* call) {
         refuse(call, status.message());
     }
     if (instances_.size() > 1) {
-        const double farthest = question_.tolerance > 0.0
-                                    ? question_.tolerance / plan::smallest_tolerance(1.0)
+        const double farthest = question_.resolved > 0.0
+                                    ? question_.resolved / plan::smallest_tolerance(1.0)
                                     : std::numeric_limits<float>::max();
         buffers_->poses().set(context_->renderer()->pair_poses(), *poses_, elements_, farthest);
     }

@@ -246,7 +246,8 @@ void DevicePairTableBase::State::records(std::uint32_t index,
     require_records();
     const std::uint32_t number = device_row("records", index);
     const plan::PairRowData& data = pair_of(number);
-    if (find_decided(number) != nullptr) {
+    // As row() has it.
+    if (find_decided(number) != nullptr || (data.count & plan::row_to_resolve) != 0) {
         records = std::get<PenetrationResult>(answer_on_cpu(data, true)).records;
         return;
     }

@@ -155,7 +155,6 @@ private:
     const plan::PairQuestion question_;  // that it asks of the device
     geometry::Vector origin_ = geometry::Vector::Zero();
     std::optional<DevicePoses> poses_;  // of the host
-    bool are_poses_taken_ = false;      // by the device, of the present instances
     records::PointResolver resolver_;
     Context::Implementation* context_ = nullptr;
     std::weak_ptr<const void> world_;
@@ -164,7 +163,6 @@ private:
     batch::ShapeStore::Held held_;
     std::vector<PairInstance> instances_;  // in the order in which they were added
     std::vector<std::uint32_t> indices_;   // of these in the world
-    std::uint32_t elements_ = 0;           // of the host's poses: all indices are below it
     std::vector<PairShape> pair_shapes_;   // by the index of a shape's handle
     std::uint64_t membership_ = 0;         // of the world, at the last update
     std::uint64_t shapes_revision_ = 0;
@@ -184,6 +182,8 @@ private:
     simd::TransformedInstances edges_;
     std::uint32_t renderer_ = 0;          // number of that of the last update
     std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
+    std::uint32_t elements_ = 0;          // of the host's poses: all indices are below it
+    bool are_poses_taken_ = false;        // by the device, of the present instances
     bool is_submitted_ = false;           // and not collected
 };
 

@@ -4,35 +4,44 @@
 
 namespace nearfield::plan {
 
+namespace {
+
+template <class Query>
+PairQuestion near_question(const Query& query, double reach, bool is_once) {
+    return {
+        .goal = PairGoal::tests, .resolved = query.tolerance, .reach = reach, .is_once = is_once};
+}
+
+}  // namespace
+
 PairQuestion pair_question(const AnyQuery& query, double reach) {
     if (std::holds_alternative<IntersectionTestQuery>(query)) {
         return {.goal = PairGoal::tests, .is_once = true};
     }
-    if (std::holds_alternative<SeparationQuery>(query) ||
-        std::holds_alternative<ClosestPointQuery>(query)) {
-        return {.goal = PairGoal::tests,
-                .reach = reach,
-                .is_once = std::holds_alternative<SeparationQuery>(query)};
+    if (const auto* const separation = std::get_if<SeparationQuery>(&query)) {
+        return near_question(*separation, reach, true);
+    }
+    if (const auto* const closest = std::get_if<ClosestPointQuery>(&query)) {
+        return near_question(*closest, reach, false);
     }
     if (const auto* const contacts = std::get_if<ContactQuery>(&query)) {
-        return {PairGoal::contacts,
-                contacts->tolerance,
-                contact_budget(contacts->tolerance, {}).cell,
-                true,
-                contacts->records,
-                contacts->contact_distance,
-                false,
-                contacts->resident};
+        return {.goal = PairGoal::contacts,
+                .tolerance = contacts->tolerance,
+                .resolved = contacts->tolerance,
+                .cell = contact_budget(contacts->tolerance, {}).cell,
+                .samples = true,
+                .records = contacts->records,
+                .reach = contacts->contact_distance,
+                .resident = contacts->resident};
     }
     const auto& penetration = std::get<PenetrationQuery>(query);
-    return {PairGoal::penetrations,
-            penetration.tolerance,
-            penetration_budget(penetration).cell,
-            penetration.points == PenetrationPoints::boundary,
-            penetration.records,
-            0.0,
-            false,
-            penetration.resident};
+    return {.goal = PairGoal::penetrations,
+            .tolerance = penetration.tolerance,
+            .resolved = penetration.tolerance,
+            .cell = penetration_budget(penetration).cell,
+            .samples = penetration.points == PenetrationPoints::boundary,
+            .records = penetration.records,
+            .resident = penetration.resident};
 }
 
 ErrorBudget pair_budget(const AnyQuery& query, const Deviations& deviations) {

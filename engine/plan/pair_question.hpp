@@ -20,6 +20,7 @@ inline constexpr std::size_t pair_goals = 3;
 struct PairQuestion {
     PairGoal goal{};
     double tolerance = 0.0;  ///< of tests: 0, there is none
+    double resolved = 0.0;   ///< that coordinates have to resolve; 0: any do
     double cell = 0.0;       ///< the side of a grid cell
     bool samples = false;    ///< along the edges, not only vertices
     bool records = false;    ///< the result lists points

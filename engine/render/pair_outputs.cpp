@@ -1,3 +1,4 @@
+#include <engine/base/unique_numbers.hpp>
 #include <engine/graph/access.hpp>
 #include <engine/render/pair_outputs.hpp>
 
@@ -45,7 +46,7 @@ void PairOutputs::set(const passes::ExportPairs& passes, const geometry::Vector&
 }
 
 void PairOutputs::reserve(std::uint32_t pairs, std::uint32_t records) {
-    ++handles_;
+    handles_ = next_revision();
     static_cast<void>(headers_.reserve(2 * bytes_between_headers));
     static_cast<void>(pairs_.reserve(bytes_of_pairs(pairs)));
     static_cast<void>(records_.reserve(bytes_of_records(records)));

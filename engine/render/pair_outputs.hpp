@@ -64,7 +64,7 @@ private:
     std::uint32_t pair_room_ = 0;
     std::uint32_t record_room_ = 0;
     std::uint32_t revision_ = 0;
-    std::uint64_t handles_ = 0;  // changes with them
+    std::uint64_t handles_ = 0;  // changes with them, and is unique in the process
 };
 
 }  // namespace nearfield::render

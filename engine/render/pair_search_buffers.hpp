@@ -118,11 +118,8 @@ private:
     gpu::Timestamps timestamps_;
     const passes::PairSearch* passes_ = nullptr;  // of the last search, as is the limit
     std::uint64_t memory_limit_ = 0;
-    bool is_submitted_ = false;
     PoseSource poses_;
-    std::uint32_t recorded_poses_ = 0;  // revision of those that the commands take; 0: none
     PairOutputs outputs_;
-    std::uint32_t recorded_outputs_ = 0;  // revision of what they leave on the device
     gpu::MappedBuffer shapes_;
     gpu::MappedBuffer instances_;
     gpu::MappedBuffer scratch_;
@@ -137,6 +134,9 @@ private:
     std::uint64_t shape_bytes_ = 0;
     std::uint64_t shapes_revision_ = 0;
     std::uint64_t scratch_bytes_ = 0;
+    std::uint32_t recorded_poses_ = 0;    // revision of those that the commands take; 0: none
+    std::uint32_t recorded_outputs_ = 0;  // revision of what they leave on the device
+    bool is_submitted_ = false;
     bool is_laid_out_ = false;
     bool is_recorded_ = false;  // since then
     std::vector<std::uint32_t> undecided_;

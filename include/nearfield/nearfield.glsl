@@ -71,7 +71,7 @@ struct NearfieldIntersectionSample {
 };
 
 // NearfieldPair::flags and NearfieldPairRecord::flags; a record may also have nearfield_touching_flag
-const uint nearfield_undecided_flag = 4u;    // whether the pair is hit is not certain
+const uint nearfield_undecided_flag = 4u;    // whether the pair is hit, or what is nearest, is open
 const uint nearfield_uncertain_flag = 8u;    // it is, but count and deepest record are not certain
 const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
 

@@ -66,7 +66,7 @@ struct NearfieldIntersectionSample {
 };
 
 // NearfieldPair::flags and NearfieldPairRecord::flags; a record may also have nearfield_touching_flag
-static const uint nearfield_undecided_flag = 4u;    // whether the pair is hit is not certain
+static const uint nearfield_undecided_flag = 4u;    // whether it is hit, or what is nearest, is open
 static const uint nearfield_uncertain_flag = 8u;    // count and deepest record are not certain
 static const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
 

@@ -36,9 +36,11 @@ struct ResidentArray {
 /// by when the device must be done with these commands; frames in flight have two tables, in turns.
 ///
 /// Error of all positions and distances of a pair: at most 2^-17 of the sum of both shapes' radii
-/// around their centres, the distance of these centres, and that of the pair from the origin; where
-/// poses are the host's (DevicePoses), also of the distances of the centres from the shapes' own
-/// (0, 0).
+/// around their centres, the distance of these centres, and that of the pair from the origin, where
+/// poses are the host's (DevicePoses) also of the distances of the centres from the shapes' own
+/// (0, 0); and 2^-44 of the largest world coordinate, the origin's included. The error of a normal
+/// is at most twice this divided by the distance, where the record is neither touching nor
+/// undecided.
 struct ResidentPairs {
     ResidentArray pairs;         ///< of PairData
     ResidentArray records;       ///< of PairRecordData
@@ -49,11 +51,12 @@ struct ResidentPairs {
 
 /// The bits of PairData::flags and PairRecordData::flags.
 namespace resident_pair_flags {
-/// Of a record: too close to the other boundary for single precision to tell inside from outside;
-/// its normal is (0, 0).
+/// Of a record: too close to the other boundary, by about the error, for single precision to tell
+/// inside from outside; its normal is (0, 0).
 inline constexpr std::uint32_t touching = 2;
-/// Of a pair: whether it is hit is not certain. Of a record: a search that took too long, so that
-/// its nearest point may not be the nearest.
+/// Of a pair: whether it is hit is not certain. Of a record: another point of the boundary may be
+/// as near as `nearest`, which is as near up to the error; after a search that took too long, it
+/// may also be nearer.
 inline constexpr std::uint32_t undecided = 4;
 /// Of a pair that is hit for certain: count and deepest record are not.
 inline constexpr std::uint32_t uncertain = 8;
@@ -71,9 +74,9 @@ struct PairData {
     /// resident_feature::inside do not count. Contacts: those farther than the contact distance do
     /// not.
     std::uint32_t first_record = 0;
-    std::uint32_t record_count = 0;
-    std::uint32_t first_of_b = 0;  ///< contacts: those of points of B's boundary
-    std::uint32_t count_of_b = 0;  ///< likewise
+    std::uint32_t record_count = 0;  ///< how many
+    std::uint32_t first_of_b = 0;    ///< contacts: those of points of B's boundary
+    std::uint32_t count_of_b = 0;    ///< likewise
     /// Penetrations: the record of the greatest depth; no_record where it is not certain that there
     /// is one.
     std::uint32_t deepest = no_record;

@@ -152,5 +152,22 @@ TEST_F(DevicePairDistances, WithoutAReachAreRefused) {
     }
 }
 
+/// Coordinates that double precision does not resolve to the tolerance: each row says so.
+TEST_F(DevicePairDistances, TooFarAwayAreErrorsOfTheirRows) {
+    const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    for (int i = 0; i < 4; ++i) {
+        add(square, {.translation = {1e9 + 1.7 * i, 1.7 * (i % 2)}, .angle = 0.7});
+    }
+    for (const double reach : {0.0, 1.0}) {
+        DevicePairTable<SeparationQuery> separations({.tolerance = 1e-6}, reach);
+        compare(reach, separations);
+        ASSERT_GT(separations.size(), 0U);
+        EXPECT_EQ(separations.row(0)->status, StatusCode::invalid_query);
+        DevicePairTable<ClosestPointQuery> closest({.tolerance = 1e-6}, reach);
+        compare(reach, closest);
+        EXPECT_EQ(closest.size(), 2 * separations.size());
+    }
+}
+
 }  // namespace
 }  // namespace nearfield::test

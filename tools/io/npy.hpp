@@ -29,8 +29,8 @@ struct NpyArray {
     std::vector<double> values;
 };
 
-/// Reads an array of float32, float64 or whole numbers in NumPy's format (versions 1 to 3), in either
-/// order of bytes and of elements. Throws InputError with the file's name and what is wrong.
+/// Reads an array of float32, float64 or whole numbers in NumPy's format (versions 1 to 3), in
+/// either order of bytes and of elements. Throws InputError with the file's name and what is wrong.
 [[nodiscard]] NpyArray read_npy(std::string_view bytes, const std::string& name);
 
 /// "(2, 3)"

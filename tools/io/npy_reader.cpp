@@ -11,7 +11,7 @@
 namespace nearfield::tools {
 namespace {
 
-bool is_one_of(char letter, std::string_view letters) {
+bool is_in(std::string_view letters, char letter) {
     return letters.find(letter) != std::string_view::npos;
 }
 
@@ -97,10 +97,9 @@ private:
 
     NumberType read_type(std::string_view text) const {
         text = text.substr(0, std::min(text.find('\'', 1), text.size()));
-        const bool is_known =
-            text.size() == 4 && is_one_of(text[1], "<>=|") &&
-            (text[2] == 'f' ? text[3] == '4' || text[3] == '8'
-                            : is_one_of(text[2], "iu") && is_one_of(text[3], "1248"));
+        const bool is_known = text.size() == 4 && is_in("<>=|", text[1]) &&
+                              (text[2] == 'f' ? text[3] == '4' || text[3] == '8'
+                                              : is_in("iu", text[2]) && is_in("1248", text[3]));
         if (!is_known) {
             fail("its numbers are neither float32, float64 nor whole numbers of up to 64 bits");
         }
