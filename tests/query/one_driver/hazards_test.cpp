@@ -197,8 +197,7 @@ TEST_F(Hazards, AreInNoUpdateOfDevicePairs) {
 TEST_F(Hazards, AreInNoDevicePairsThatStayOnTheDevice) {
     leave_device_pairs(PenetrationQuery{.tolerance = 0.05, .records = false, .resident = true});
     EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
-    leave_device_pairs(
-        ContactQuery{.tolerance = 0.05, .contact_distance = 0.05, .resident = true});
+    leave_device_pairs(ContactQuery{.tolerance = 0.05, .contact_distance = 0.05, .resident = true});
     check();
 }
 
