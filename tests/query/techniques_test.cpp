@@ -202,8 +202,8 @@ Rings nested_pentagons(int rings) {
 // device's walks give up.
 TEST_F(Techniques, AgreeOnCrowds) {
     const NamedRings pentagons{"pentagons", nested_pentagons(260)};
-    check({pentagons, pentagons, {}, {}, 0.1});
-    check({pentagons, pentagons, {{0.3, 0.2}, 0.4}, {{-100.0, 3.0}, 2.0}, 0.1});
+    check({pentagons, pentagons, {}, {}, 0.4});
+    check({pentagons, pentagons, {{0.3, 0.2}, 0.4}, {{-100.0, 3.0}, 2.0}, 0.4});
     NamedRings specks{"specks", {}};
     Random random(seed);
     for (int i = 0; i < 400; ++i) {
@@ -212,7 +212,7 @@ TEST_F(Techniques, AgreeOnCrowds) {
                              {random.between(-0.1, 0.1), random.between(-0.1, 0.1)})
                 .front());
     }
-    check({pentagons, specks, {}, {}, 0.1});
+    check({pentagons, specks, {}, {}, 0.4});
 }
 
 TEST_F(Techniques, AgreeOnSpikes) {
