@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nearfield::test {
@@ -49,8 +50,7 @@ protected:
         [[nodiscard]] DevicePoses& poses() { return poses_; }
         /// Has the device write them, once it is done with the reading of earlier ones.
         void write(const std::vector<HostPose>& poses) {
-            // What is mapped may be written by the host.
-            auto* const data = const_cast<std::byte*>(source_.data);
+            auto* const data = const_cast<std::byte*>(source_.data);  // it is mapped
             for (std::size_t i = 0; i < poses.size(); ++i) {
                 std::memcpy(data + poses_.offset + i * poses_.stride, poses[i].data(),
                             sizeof(HostPose));
@@ -84,13 +84,14 @@ protected:
             }
         }
     }
-    void add_squares(int count) {
-        const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    /// `x`: of their centres, in their own frame.
+    void add_squares(int count, double x = 0.0) {
+        const ShapeHandle square = add_shape(rectangle({x - 1.0, -1.0}, {x + 1.0, 1.0}));
         for (int i = 0; i < count; ++i) {
             added_.push_back(add(square, {}));
         }
     }
-    /// So that shapes far from their origin, as some are, come near the others too.
+    /// Shapes far from their origin come near the others too.
     [[nodiscard]] HostPose any_host_pose(Random& random, const Vector2& centre) {
         const double angle = random.between(-4.0, 4.0);
         const double length = random.between(0.9925, 1.0075);
@@ -211,30 +212,41 @@ TEST_F(DevicePairPoses, GiveTheRowsOfTheSamePosesOfTheWorld) {
     EXPECT_GT(rows_, 2000U);
 }
 
-/// The device's turns are near enough to true ones: squares that touch, or nearly.
+/// The device's turns are near enough to true ones: squares that touch, or nearly, around their
+/// own (0, 0) and far from it, where turns move them more.
 TEST_F(DevicePairPoses, TellWhatTouchesFromWhatDoesNot) {
-    add_squares(60);
-    DevicePairTable table(IntersectionTestQuery{});
-    PairTable cpu(IntersectionTestQuery{}, {.hits_only = true});
-    Buffer buffer = make_buffer();
-    for_each_case(seed, 12, [&](Random& random) {
-        std::vector<HostPose> poses;
-        for (int i = 0; i < 30; ++i) {
-            const double angle = random.between(-4.0, 4.0);
-            const std::array<float, 2> turn{static_cast<float>(std::cos(angle)),
-                                            static_cast<float>(std::sin(angle))};
-            const auto far = static_cast<float>(20.0 * i);
-            // Two units along the x axis of the square.
-            const std::array<float, 2> apart{far + 2.0F * turn[0], 2.0F * turn[1]};
-            const auto skip = static_cast<float>(random.whole(-1, 1)) * 1.5e-7F;
-            poses.push_back({far, 0.0F, turn[0], turn[1]});
-            poses.push_back(
-                {apart[0] + skip * turn[0], apart[1] + skip * turn[1], turn[0], turn[1]});
-        }
-        ASSERT_NO_FATAL_FAILURE(compare(table, cpu, buffer, poses));
-    });
-    EXPECT_GT(rows_, 50U);
-    EXPECT_LT(rows_, 300U);
+    for (const double centre : {0.0, 3.0, 1000.0}) {
+        SCOPED_TRACE(centre);
+        remove(std::exchange(added_, {}));
+        add_squares(60, centre);
+        DevicePairTable table(IntersectionTestQuery{});
+        PairTable cpu(IntersectionTestQuery{}, {.hits_only = true});
+        Buffer buffer = make_buffer();
+        rows_ = 0;
+        for_each_case(seed, 12, [&](Random& random) {
+            std::vector<HostPose> poses(60);
+            for (std::size_t i = 0; i < 60; i += 2) {
+                const double angle = random.between(-4.0, 4.0);
+                const Vector2 turn{std::cos(angle), std::sin(angle)};
+                // Two units along the x axis of the square, or a little more or less.
+                const double apart = 2.0 + random.whole(-1, 1) * (1.5e-7 + 1e-7 * centre);
+                for (std::size_t k = 0; k < 2; ++k) {
+                    // The other one by a quarter turn more.
+                    const Vector2 own = k == 0 ? turn : Vector2{-turn.y, turn.x};
+                    const double along = apart * static_cast<double>(k);
+                    poses[added_[i + k].index] = {
+                        static_cast<float>(along * turn.x - centre * own.x),
+                        static_cast<float>(10.0 * static_cast<double>(i) + along * turn.y -
+                                           centre * own.y),
+                        static_cast<float>(own.x), static_cast<float>(own.y)};
+                }
+            }
+            ASSERT_NO_FATAL_FAILURE(compare(table, cpu, buffer, poses));
+        });
+        EXPECT_GT(rows_, 50U);
+        EXPECT_LT(rows_, 310U);
+    }
+    added_.clear();
 }
 
 /// Coordinates that double precision does not resolve to the tolerance: the CPU says so.
@@ -276,8 +288,15 @@ TEST_F(DevicePairPoses, AreReadOnce) {
     EXPECT_EQ(table.candidates(), 120U * 119U);
     EXPECT_EQ(table.size(), 120U * 119U);
     EXPECT_NEAR(table.row(0)->deepest.depth, 0.011, 1e-6);  // turned by 0.8, 0.6
-    ASSERT_TRUE(world().update(table, buffer.poses()).ok());
-    EXPECT_EQ(table.size(), 0U);
+    Buffer other = make_buffer();
+    for (const bool is_apart : {false, true}) {
+        other.write(is_apart ? apart : together);
+        gpu().finish();
+        ASSERT_TRUE(world().update(table, other.poses()).ok());
+        EXPECT_EQ(table.size() == 0, is_apart);
+        ASSERT_TRUE(world().update(table, buffer.poses()).ok());
+        EXPECT_EQ(table.size(), 0U);
+    }
 }
 
 /// Poses of the world and of the host in turns, and members and shapes that change.
@@ -301,7 +320,6 @@ TEST_F(DevicePairPoses, AreNotKept) {
     buffer.poses().origin = {4.0, 4.0};
     ASSERT_TRUE(world().update(table, buffer.poses()).ok());
     EXPECT_EQ(table.size(), 1U);
-    // The last one takes the place of the first.
     ASSERT_TRUE(world().remove(added_[0]).ok());
     ASSERT_TRUE(world().update(table, buffer.poses()).ok());
     EXPECT_EQ(table.size(), 0U);
@@ -374,7 +392,6 @@ TEST_F(DevicePairPoses, OfBadBuffersAreRefused) {
     for (const std::uint32_t stride : {0U, 12U, 18U}) {
         expect_refusal("an element every", [=](DevicePoses& poses) { poses.stride = stride; });
     }
-    // Two whole elements between the first words, and the last four floats.
     expect_refusal("need elements up to 2, which is 56 bytes",
                    [](DevicePoses& poses) { poses.size = 55; });
     expect_refusal("has the origin (nan, 0)", [](DevicePoses& poses) {

@@ -255,6 +255,27 @@ TEST_F(DevicePairResidents, SayThatTheyAreNotAllThere) {
     ASSERT_TRUE(table.collect().ok());
 }
 
+TEST_F(DevicePairResidents, AreRelativeToTheOriginOfTheHost) {
+    const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    const auto buffer = gpu().make_buffer(32, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const float places[8] = {0.0F, 0.0F, 1.0F, 0.0F, 0.5F, 0.25F, 1.0F, 0.0F};
+    std::memcpy(const_cast<std::byte*>(buffer.data), places, sizeof(places));  // it is mapped
+    add(square, {});
+    add(square, {});
+    DevicePoses poses;
+    poses.buffer = buffer.buffer;
+    poses.size = sizeof(places);
+    poses.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true});
+    for (const Vector2& origin : {Vector2{}, Vector2{1000.0, -5.0}, Vector2{7.0, 7.0}}) {
+        poses.origin = origin;
+        ASSERT_TRUE(world().update(table, poses).ok());
+        EXPECT_EQ(table.resident()->origin, origin);
+        EXPECT_EQ(read(*table.resident()).pairs.size(), 2U);
+        EXPECT_NEAR(table.row(0)->deepest.nearest.x, origin.x + 1.0, 1.0);
+    }
+}
+
 /// Buffers that are made anew may have the handles of former ones.
 TEST_F(DevicePairResidents, OfATableThatStartsAnewHaveAnotherRevision) {
     const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
