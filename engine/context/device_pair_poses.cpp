@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace nearfield {
@@ -20,10 +21,7 @@ void DevicePairTableBase::State::set_poses(const DevicePoses* poses) {
     if (!is_same_source) {
         membership_ = 0;
     }
-    poses_.reset();
-    if (poses != nullptr) {
-        poses_ = *poses;
-    }
+    poses_ = poses == nullptr ? std::nullopt : std::optional(*poses);
 }
 
 void DevicePairTableBase::State::find_poses(const char* call) {

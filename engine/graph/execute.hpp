@@ -35,7 +35,8 @@ struct ExternalUses {
 };
 
 /// What is behind an imported handle. A resource with uses of its own was declared with accesses
-/// before and after, and its first use in the graph is a write.
+/// where these state any, and its first use in the graph is a write; or, of a buffer that was
+/// declared to be written before, a read.
 struct ImportedBuffer {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;

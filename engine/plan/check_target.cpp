@@ -265,8 +265,7 @@ Status check_poses(const DevicePoses& poses, std::uint32_t elements, std::uint64
                                        " bytes (DevicePoses::stride); a multiple of 4 of at least "
                                        "16 is needed");
     }
-    const std::uint64_t needed =
-        elements == 0 ? 0 : std::uint64_t{poses.stride} * (elements - 1) + 4 * sizeof(float);
+    const std::uint64_t needed = bytes_of_poses(poses, elements);
     if (poses.size < needed) {
         return refused(poses_name, "has " + std::to_string(poses.size) + " bytes from offset " +
                                        std::to_string(poses.offset) +

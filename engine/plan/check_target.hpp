@@ -46,6 +46,11 @@ private:
 [[nodiscard]] Status check_room(const ResidentBufferTarget& target, double bytes,
                                 std::string_view what);
 
+/// Bytes from the first of so many poses of the host's to the end of the last one.
+[[nodiscard]] constexpr std::uint64_t bytes_of_poses(const DevicePoses& poses,
+                                                     std::uint32_t elements) {
+    return elements == 0 ? 0 : std::uint64_t{poses.stride} * (elements - 1) + 4 * sizeof(float);
+}
 /// Checks what the host states about the buffer of its poses. `elements`: of which it needs room;
 /// `offset_alignment`: of storage buffers on the device, bytes, and the most bytes that shaders
 /// reach of one.

@@ -1,3 +1,4 @@
+#include <engine/plan/check_target.hpp>
 #include <engine/render/pose_source.hpp>
 
 #include <shaders/pairs.h>
@@ -30,7 +31,7 @@ PoseSource::PoseSource(const gpu::Device& device, const passes::ComputeLayout& l
 
 void PoseSource::set(const passes::PairPoses& passes, const DevicePoses& poses,
                      std::uint32_t elements, double farthest) {
-    const std::uint64_t bytes = std::uint64_t{poses.stride} * (elements - 1) + bytes_of_pose;
+    const std::uint64_t bytes = plan::bytes_of_poses(poses, elements);
     if (passes_ == &passes && poses == poses_ && bytes == bytes_) {
         return;
     }

@@ -1,12 +1,10 @@
 #include <tests/query/device_pairs.hpp>
-#include <tests/support/host_gpu.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,17 +20,8 @@ constexpr std::uint64_t seed = 27000;
 using HostPose = std::array<float, 4>;
 
 /// Tables of pairs at poses that commands of the host write.
-class DevicePairPoses : public DevicePairsTest {
+class DevicePairPoses : public DevicePairsOfHostTest {
 protected:
-    void SetUp() override {
-        DevicePairsTest::SetUp();
-        gpu_.emplace(host_device());
-    }
-    void TearDown() override {
-        DevicePairsTest::TearDown();
-        gpu_.reset();
-    }
-
     /// A buffer with room for poses, and another one from which they are copied to it.
     class Buffer {
     public:
@@ -72,7 +61,7 @@ protected:
         HostGpu::Buffer source_;
     };
     [[nodiscard]] Buffer make_buffer(std::uint32_t stride = 16, VkDeviceSize offset = 0) {
-        return {*gpu_, added_.size(), stride, offset};
+        return {gpu(), added_.size(), stride, offset};
     }
 
     /// Instances of all kinds of shapes.
@@ -139,7 +128,7 @@ protected:
         ASSERT_NO_FATAL_FAILURE(scatter());
         buffer.write(poses);
         const Status status = world().update(table, buffer.poses());
-        gpu_->finish();
+        gpu().finish();
         ASSERT_TRUE(status.ok()) << status.text();
         std::uint32_t next = 0;
         for (const PairRow<Query>& truth : cpu.rows()) {
@@ -179,13 +168,8 @@ protected:
         }
     }
 
-    HostGpu& gpu() { return *gpu_; }
-
     std::vector<InstanceHandle> added_;
     std::uint32_t rows_ = 0;  // that were compared
-
-private:
-    std::optional<HostGpu> gpu_;
 };
 
 TEST_F(DevicePairPoses, GiveTheRowsOfTheSamePosesOfTheWorld) {

@@ -1,11 +1,9 @@
 #include <tests/query/device_pairs.hpp>
-#include <tests/support/host_gpu.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -15,22 +13,11 @@
 namespace nearfield::test {
 namespace {
 
-using test_support::HostGpu;
-
 constexpr std::uint64_t seed = 28000;
 
 /// What tables of pairs leave on the device, compared with their exact rows.
-class DevicePairResidents : public DevicePairsTest {
+class DevicePairResidents : public DevicePairsOfHostTest {
 protected:
-    void SetUp() override {
-        DevicePairsTest::SetUp();
-        gpu_.emplace(host_device());
-    }
-    void TearDown() override {
-        DevicePairsTest::TearDown();
-        gpu_.reset();
-    }
-
     struct Read {
         ResidentHeaderData pair_header;
         ResidentHeaderData record_header;
@@ -43,7 +30,7 @@ protected:
                            const ResidentState& state) {
         std::vector<Data> data(count);
         if (count > 0) {
-            const auto words = gpu_->read(buffer, offset, count * sizeof(Data), state);
+            const auto words = gpu().read(buffer, offset, count * sizeof(Data), state);
             std::memcpy(static_cast<void*>(data.data()), words.data(), count * sizeof(Data));
         }
         return data;
@@ -195,14 +182,9 @@ protected:
         }
     }
 
-    HostGpu& gpu() { return *gpu_; }
-
     std::uint32_t rows_ = 0;  // that were compared
     std::uint32_t records_ = 0;
     std::uint32_t normals_ = 0;
-
-private:
-    std::optional<HostGpu> gpu_;
 };
 
 TEST_F(DevicePairResidents, ArePenetrationsAsTheDeviceFindsThem) {

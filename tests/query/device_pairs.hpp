@@ -1,6 +1,7 @@
 #pragma once
 
 #include <tests/query/query_test.hpp>
+#include <tests/support/host_gpu.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -125,6 +126,24 @@ private:
 
     std::optional<World> world_;
     std::vector<ShapeHandle> shapes_;
+};
+
+/// The same with the host's side of the device.
+class DevicePairsOfHostTest : public DevicePairsTest {
+protected:
+    void SetUp() override {
+        DevicePairsTest::SetUp();
+        gpu_.emplace(host_device());
+    }
+    void TearDown() override {
+        DevicePairsTest::TearDown();
+        gpu_.reset();
+    }
+
+    test_support::HostGpu& gpu() { return *gpu_; }
+
+private:
+    std::optional<test_support::HostGpu> gpu_;
 };
 
 }  // namespace nearfield::test

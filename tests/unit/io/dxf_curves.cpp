@@ -52,6 +52,19 @@ double largest_distance(const std::vector<Ring>& rings, const std::vector<Vector
     return largest;
 }
 
+/// The path is a single contour: this polyline, and a line from its end to its start.
+void expect_along(const CurvePath& path, std::vector<Vector2> polyline) {
+    constexpr double deviation = 1e-4;
+    const auto rings = tessellate(path, deviation);
+    ASSERT_TRUE(rings.has_value()) << rings.error().message();
+    ASSERT_EQ(rings->size(), 1U);
+    for (std::size_t i = 0; i < polyline.size(); i += 3) {
+        ASSERT_LE(distance_to(polyline[i], *rings), 1.01 * deviation);
+    }
+    polyline.push_back(polyline.front());
+    ASSERT_LE(largest_distance(*rings, polyline), deviation);
+}
+
 std::string text_of(double number) {
     std::ostringstream text;
     text.precision(17);
@@ -139,12 +152,11 @@ Spline any_spline(std::mt19937& random, bool is_clamped) {
 }
 
 TEST(ToolsDxfSplines, AreTheirBasisFunctions) {
-    constexpr double deviation = 1e-4;
     for (unsigned seed = 0; seed < 120; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
         const Spline spline = any_spline(random, seed % 2 == 0);
-        std::vector<Vector2> truth = spline.polyline(300);
+        const std::vector<Vector2> truth = spline.polyline(300);
         if (truth.size() == 1 || (spline.degree == 1 && truth.size() == 301)) {
             continue;  // nothing, or a line
         }
@@ -152,14 +164,7 @@ TEST(ToolsDxfSplines, AreTheirBasisFunctions) {
         // The other end first.
         const CurvePath path = read_drawing(
             drawing(seed % 3 == 0 ? closing + spline.text() : spline.text() + closing));
-        const auto rings = tessellate(path, deviation);
-        ASSERT_TRUE(rings.has_value()) << rings.error().message();
-        ASSERT_EQ(rings->size(), 1U);
-        for (std::size_t i = 0; i < truth.size(); i += 3) {
-            ASSERT_LE(distance_to(truth[i], *rings), 1.01 * deviation);
-        }
-        truth.push_back(truth.front());
-        ASSERT_LE(largest_distance(*rings, truth), 1e-4);
+        ASSERT_NO_FATAL_FAILURE(expect_along(path, truth));
     }
 }
 
@@ -208,7 +213,6 @@ TEST(ToolsDxfSplines, OfOtherKindsAreRefusedByName) {
 }
 
 TEST(ToolsDxfEllipses, MayBeArcs) {
-    constexpr double deviation = 1e-4;
     for (unsigned seed = 0; seed < 80; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
@@ -237,14 +241,7 @@ TEST(ToolsDxfEllipses, MayBeArcs) {
                                 " 230 " + text_of(way);
         const std::string chord = line(truth.front(), truth.back());
         const CurvePath path = read_drawing(drawing(seed % 7 < 3 ? chord + arc : arc + chord));
-        const auto rings = tessellate(path, deviation);
-        ASSERT_TRUE(rings.has_value()) << rings.error().message();
-        ASSERT_EQ(rings->size(), 1U);
-        for (std::size_t i = 0; i < truth.size(); i += 3) {
-            ASSERT_LE(distance_to(truth[i], *rings), 1.01 * deviation);
-        }
-        truth.push_back(truth.front());
-        ASSERT_LE(largest_distance(*rings, truth), 1e-4);
+        ASSERT_NO_FATAL_FAILURE(expect_along(path, truth));
     }
 }
 
