@@ -6,7 +6,7 @@
 #include "search.glsl"
 #include "pairs.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = 128) in;
 
 // Of the third level above that of the instances, and then of those above it.
 shared vec4 boxes[512];

@@ -8,15 +8,16 @@
 
 #include "search.glsl"
 
-layout(local_size_x = 64) in;
+const uint scan_threads = 128u;
+layout(local_size_x = 128) in;
 
 layout(std430, set = 0, binding = 3) buffer Arguments {
     uvec4 arguments[];  // by stage: workgroups in three dimensions, number that was counted
 };
 
-const uint sum_group = 8u;  // threads whose sums are added first
-shared uint sums[64];
-shared uint group_sums[64 / sum_group];
+const uint sum_group = 16u;  // threads whose sums are added first
+shared uint sums[scan_threads];
+shared uint group_sums[scan_threads / sum_group];
 shared uint total_of_all;
 
 const uint max_sum = 1u << 30;  // sums end here; there is never as much room

@@ -150,8 +150,8 @@ void check_limits(const VkPhysicalDeviceLimits& limits, Requirements& requiremen
          "a compute pass uses as many storage buffers"},
         {"maxPerStageDescriptorStorageImages", 2, limits.maxPerStageDescriptorStorageImages,
          "a field that stays on the device is written to two images"},
-        {"maxComputeWorkGroupInvocations", 64, limits.maxComputeWorkGroupInvocations,
-         "compute passes work in groups of 8 by 8"},
+        {"maxComputeWorkGroupInvocations", 128, limits.maxComputeWorkGroupInvocations,
+         "compute passes work in groups of up to as many"},
     };
     for (const RequiredLimit& limit : requirements.limits) {
         if (limit.offered < limit.needed) {

@@ -141,7 +141,7 @@ TEST_F(GpuRequirements, EachMissingLimitIsNamedAndTheLeastIsEnough) {
         {"maxPerStageDescriptorStorageImages",
          &VkPhysicalDeviceLimits::maxPerStageDescriptorStorageImages, 2},
         {"maxComputeWorkGroupInvocations", &VkPhysicalDeviceLimits::maxComputeWorkGroupInvocations,
-         64},
+         128},
     };
     for (const Case& limit : cases) {
         SCOPED_TRACE(limit.name);
