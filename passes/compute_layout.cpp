@@ -66,6 +66,12 @@ ComputeLayout::ComputeLayout(const gpu::Device& device)
 
 void ComputeLayout::write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer,
                                  VkDeviceSize offset, VkDeviceSize bytes) const {
+    constexpr VkDeviceSize unit = plan::bytes_of_unit;  // of which MappedBuffer's sizes are multiples
+    write_host_buffer(set, binding, buffer, offset, (bytes + unit - 1) / unit * unit);
+}
+
+void ComputeLayout::write_host_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer,
+                                      VkDeviceSize offset, VkDeviceSize bytes) const {
     updates_.push_back({set, binding, {buffer, offset, bytes}, {}, VK_NULL_HANDLE});
 }
 

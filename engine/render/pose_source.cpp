@@ -55,7 +55,7 @@ void PoseSource::record(VkCommandBuffer commands, gpu::Timestamps& timestamps, c
     layout_->begin_updates();
     layout_->write_buffer(item_.set, Layout::tiles, shapes.buffer, 0, shapes.bytes);
     layout_->write_texels(item_.set, Layout::texels, texels);
-    layout_->write_buffer(item_.set, Layout::geometry, poses_.buffer, poses_.offset, bytes_);
+    layout_->write_host_buffer(item_.set, Layout::geometry, poses_.buffer, poses_.offset, bytes_);
     layout_->write_buffer(item_.set, Layout::points, instances.buffer, 0, instances.bytes);
     layout_->write_buffer(item_.set, Layout::output, taken_.handle(), 0,
                           bytes_of_pose * (1 + std::uint64_t{instance_count}));

@@ -207,7 +207,7 @@ BufferPart ResidentBuffers::range_of(std::size_t i, const plan::SamplesOutput& s
 
 void ResidentBuffers::bind_records(VkDescriptorSet set, const Place& place,
                                    const BufferPart& range) const {
-    layout_->write_buffer(set, Layout::records, range.buffer, range.offset, range.bytes);
+    layout_->write_host_buffer(set, Layout::records, range.buffer, range.offset, range.bytes);
     layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.blocks,
                           std::max(place.block_bytes, smallest_part));
 }
