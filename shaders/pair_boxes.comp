@@ -73,9 +73,13 @@ void main() {
     uint place = push.first + dispatched_index();
     uint own = gl_LocalInvocationID.x;
     bool exists = place < push.instances;
-    boxes[own] = exists ? box_of(instance_at(instance_in_order(place))) : empty_box;
+    boxes[own] = empty_box;
     if (exists) {
+        uint number = instance_in_order(place);
+        SearchInstanceData instance = instance_at(number);
+        boxes[own] = box_of(instance);
         scratch_units[level_unit(0u) + place] = floatBitsToUint(boxes[own]);
+        scratch_units[place_unit(place)] = uvec4(number, instance.category, instance.mask, 0u);
     }
     merge_boxes(1u);
     if (exists && own % 8u == 0u) {

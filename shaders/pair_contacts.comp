@@ -15,7 +15,7 @@ layout(local_size_x = group_size) in;
 // The direction from B to A. If there was no room for that, any other.
 uint reverse_of(uint direction) {
     uvec2 own = direction_unit(direction, 3u).zw;
-    uvec4 list = scratch_units[push.lists + own.y];
+    uvec4 list = scratch_units[push.lists + units_of_list * own.y];
     uint directions = scratch[pair_total];
     uint first = min(list.x + scratch[push.pair_blocks + own.y / search_block], directions - 1u);
     uint count = min(list.z, directions - first);
@@ -34,6 +34,17 @@ uvec2 records_of(uint direction) {
     return uvec2(first, first_record(direction + 1u) - first);
 }
 
+// What the search has found about four records; 0 for those that are not asked for.
+uvec4 four_words(uint four, bvec4 asked) {
+    uvec4 words = uvec4(0u);
+    for (uint i = 0u; i < 4u; ++i) {
+        if (asked[i]) {
+            words[i] = records[4u * four + i].w;
+        }
+    }
+    return words;
+}
+
 // The contacts among the records of a direction: their number, and flags.
 uint contacts_of(uint direction, uvec2 found) {
     vec4 lengths = uintBitsToFloat(direction_unit(direction, 2u));
@@ -44,15 +55,17 @@ uint contacts_of(uint direction, uvec2 found) {
     }
     uint count = 0u;
     uint flags = 0u;
-    for (uint i = found.x; i < found.x + found.y; ++i) {
-        float near = uintBitsToFloat(scratch[push.record_depths + i]);
-        uint word = records[i].w;
-        if (near >= 0.0 && near <= certain) {
-            ++count;
-        } else {
-            flags |= row_to_resolve;
-        }
-        flags |= (word & (point_inside | point_doubtful)) == point_inside ? row_intersects : 0u;
+    for (uint four = found.x / 4u; 4u * four < found.x + found.y; ++four) {
+        vec4 near = four_depths(four);
+        bvec4 are_own = are_among(four, found);
+        uvec4 words = four_words(four, are_own);
+        bvec4 are_near = bvec4(uvec4(greaterThanEqual(near, vec4(0.0))) &
+                               uvec4(lessThanEqual(near, vec4(certain))));
+        uvec4 contacts = uvec4(are_own) & uvec4(are_near);
+        count += contacts.x + contacts.y + contacts.z + contacts.w;
+        flags |= any(bvec4(uvec4(are_own) & uvec4(not(are_near)))) ? row_to_resolve : 0u;
+        bvec4 inside = equal(words & (point_inside | point_doubtful), uvec4(point_inside));
+        flags |= any(bvec4(uvec4(are_own) & uvec4(inside))) ? row_intersects : 0u;
     }
     return count | flags;
 }

@@ -24,7 +24,7 @@ struct List {
 };
 
 List list_of(uint a) {
-    uvec4 list = scratch_unit(push.lists + a);
+    uvec4 list = scratch_unit(push.lists + units_of_list * a);
     uint first = list.x + scratch_word(push.pair_blocks + a / search_block);
     return List(first, list.y + scratch_word(push.list_item_blocks + a / search_block),
                 min(first + list.z, scratch[pair_total]));

@@ -19,18 +19,27 @@ struct Depths {
     bool any_is_certain;
 };
 
+void consider(uint record, float depth, float touching, float margin, inout Depths depths) {
+    depths.decided = depths.decided && depth >= 0.0 && abs(depth - touching) > margin;
+    depths.any_is_certain = depths.any_is_certain || depth > touching + margin;
+    if (depth > touching) {
+        ++depths.count;
+        bool deeper = depth > depths.depth;
+        depths.second = deeper ? depths.depth : max(depths.second, depth);
+        depths.deepest = deeper ? record : depths.deepest;
+        depths.depth = max(depth, depths.depth);
+    }
+}
+
 Depths compare(uint first, uint end, float touching, float margin) {
     Depths depths = Depths(0u, first, 0.0, 0.0, true, false);
-    for (uint i = first; i < end; ++i) {
-        float depth = uintBitsToFloat(scratch_word(push.record_depths + i));
-        depths.decided = depths.decided && depth >= 0.0 && abs(depth - touching) > margin;
-        depths.any_is_certain = depths.any_is_certain || depth > touching + margin;
-        if (depth > touching) {
-            ++depths.count;
-            bool deeper = depth > depths.depth;
-            depths.second = deeper ? depths.depth : max(depths.second, depth);
-            depths.deepest = deeper ? i : depths.deepest;
-            depths.depth = max(depth, depths.depth);
+    for (uint four = first / 4u; 4u * four < end; ++four) {
+        vec4 four_of_them = four_depths(four);
+        bvec4 are_own = are_among(four, uvec2(first, end - first));
+        for (uint i = 0u; i < 4u; ++i) {
+            if (are_own[i]) {
+                consider(4u * four + i, four_of_them[i], touching, margin, depths);
+            }
         }
     }
     return depths;

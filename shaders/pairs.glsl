@@ -50,7 +50,13 @@ uint size_below(uint level, uint lower) {
 // The first unit of a level; without a loop, since it is called in each step of long ones.
 uint level_unit(uint level) {
     return push.boxes + size_below(level, 0u) + size_below(level, 1u) + size_below(level, 2u) +
-           size_below(level, 3u) + size_below(level, 4u);
+           size_below(level, 3u) + size_below(level, 4u) + size_below(level, 5u);
+}
+
+// The unit behind all levels that says which instance is at a place of the lowest one: its number,
+// its category and its mask.
+uint place_unit(uint place) {
+    return level_unit(instance_levels) + place;
 }
 
 vec4 merged(vec4 a, vec4 b) {

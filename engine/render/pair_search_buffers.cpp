@@ -129,8 +129,8 @@ PairSearchBuffers::Bytes PairSearchBuffers::place_arrays() {
         boxes += level;
         level = (level + 7) / 8;
     }
-    push.boxes = layout.units(boxes);
-    push.lists = layout.units(push.instances);
+    push.boxes = layout.units(boxes + push.instances);
+    push.lists = layout.units(plan::units_of_list * std::uint64_t{push.instances});
     push.pair_blocks = layout.sums(push.instances);
     push.list_item_blocks = layout.sums(push.instances);
     push.pairs = layout.words(2 * std::uint64_t{pairs});
