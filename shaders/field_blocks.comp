@@ -32,22 +32,25 @@ uvec4 segment_of(SeenEdge edge, vec2 half_size) {
 // Up to this many edges are tested at every cell instead of being culled further.
 const uint few_edges = 2u;
 
-// Which of 32 of the quarter's edges, from one on, can be nearest: one bit each.
+// Four of `count` edges in a list, the last one in place of those beyond it.
+uvec4 four_slots(uint first, uint i, uint count) {
+    uvec4 words = first + min(i + uvec4(0u, 1u, 2u, 3u), uvec4(count - 1u));
+    return uvec4(scratch[words.x], scratch[words.y], scratch[words.z], scratch[words.w]);
+}
+
+// Which of up to 32 of the quarter's edges, from one on, can be nearest: one bit each.
 uint near_edges(Shape shape, Square square, Limits limits, uint first, uint count) {
     uint near = 0u;
-    for (uint i = 0u; i < count; ++i) {
-        vec4 edge = floats_at(shape.edges + scratch[first + i]);
-        bool keeps = can_be_nearest(square, limits, way_from_edge(square.centre, edge));
-        near |= keeps ? 1u << i : 0u;
+    for (uint i = 0u; i < count; i += 4u) {
+        near |= those_nearest(square, shape, limits, four_slots(first, i, count)) << i;
     }
-    return near;
+    return near & ((2u << (count - 1u)) - 1u);
 }
 
 Limits find_limits(FieldTileData tile, Shape shape, Square square, uint edges, uint edge_count) {
     Rivals rivals = no_rivals;
-    for (uint i = 0u; i < edge_count; ++i) {
-        uint slot = scratch[edges + i];
-        consider(square, floats_at(shape.edges + slot), slot, rivals);
+    for (uint i = 0u; i < edge_count; i += 4u) {
+        consider_four(square, shape, four_slots(edges, i, edge_count), rivals);
     }
     return limits_of(tile, shape, square, rivals);
 }

@@ -13,6 +13,15 @@ layout(std430, set = 0, binding = 1) buffer Scratch {
     uint scratch[];
 };
 
+void consider_chunk(Square square, Shape shape, uint chunk, inout Rivals rivals) {
+    uint first = chunk_size * chunk;
+    uint last = edges_end(shape, chunk) - 1u;
+    for (uint i = 0u; i < chunk_size; i += 4u) {
+        uvec4 slots = first + i + uvec4(0u, 1u, 2u, 3u);
+        consider_four(square, shape, min(slots, uvec4(last)), rivals);
+    }
+}
+
 Rivals find_rivals(Square square, Shape shape, uint list, uint count) {
     Rivals rivals = no_rivals;
     for (uint i = 1u; i <= count; ++i) {
@@ -23,10 +32,7 @@ Rivals find_rivals(Square square, Shape shape, uint list, uint count) {
         vec2 way = way_from_box(square.centre, box);
         if (dot(way, way) < rivals.squared ||
             any(lessThan(x * x + y * y, rivals.corner_squared))) {
-            uint end = edges_end(shape, chunk);
-            for (uint slot = chunk_size * chunk; slot < end; ++slot) {
-                consider(square, floats_at(shape.edges + slot), slot, rivals);
-            }
+            consider_chunk(square, shape, chunk, rivals);
         }
     }
     return rivals;
@@ -41,15 +47,19 @@ uint list_edges(Square square, Shape shape, Limits limits, uint chunks, uint chu
         if (!can_be_nearest(square, limits, way_from_box(square.centre, box))) {
             continue;
         }
-        uint end = edges_end(shape, chunk);
-        for (uint slot = chunk_size * chunk; slot < end; ++slot) {
-            vec4 edge = floats_at(shape.edges + slot);
-            if (can_be_nearest(square, limits, way_from_edge(square.centre, edge))) {
-                if (++count == words_of_quarter) {
-                    return crowded;
-                }
-                scratch[list + count] = slot;
-            }
+        uint first = chunk_size * chunk;
+        uint last = edges_end(shape, chunk) - 1u;
+        uint near = 0u;
+        for (uint four = 0u; four < chunk_size; four += 4u) {
+            uvec4 slots = first + four + uvec4(0u, 1u, 2u, 3u);
+            near |= those_nearest(square, shape, limits, min(slots, uvec4(last))) << four;
+        }
+        near &= (2u << (last - first)) - 1u;
+        if (count + bitCount(near) >= words_of_quarter) {
+            return crowded;
+        }
+        for (; near != 0u; near &= near - 1u) {
+            scratch[list + ++count] = first + findLSB(near);
         }
     }
     return count;

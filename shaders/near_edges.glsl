@@ -64,6 +64,22 @@ void consider(Square square, vec4 edge, uint slot, inout Rivals rivals) {
     rivals.corner_squared = min(from_corners, rivals.corner_squared);
 }
 
+// Four edges, whose loads do not wait for each other.
+vec4[4] edges_at(Shape shape, uvec4 slots) {
+    vec4 edges[4];
+    for (uint i = 0u; i < 4u; ++i) {
+        edges[i] = floats_at(shape.edges + slots[i]);
+    }
+    return edges;
+}
+
+void consider_four(Square square, Shape shape, uvec4 slots, inout Rivals rivals) {
+    vec4 edges[4] = edges_at(shape, slots);
+    for (uint i = 0u; i < 4u; ++i) {
+        consider(square, edges[i], slots[i], rivals);
+    }
+}
+
 // The distances of the corners from the rivals, with the slack: no edge farther is nearest.
 struct Limits {
     vec4 centre;
@@ -100,4 +116,15 @@ vec2 way_from_box(vec2 p, vec4 box) {
 
 vec2 way_from_edge(vec2 p, vec4 edge) {
     return p - nearest_on_segment(p, edge.xy, edge.zw);
+}
+
+// Which of four edges can be nearest, one bit each.
+uint those_nearest(Square square, Shape shape, Limits limits, uvec4 slots) {
+    vec4 edges[4] = edges_at(shape, slots);
+    uint near = 0u;
+    for (uint i = 0u; i < 4u; ++i) {
+        bool can_be = can_be_nearest(square, limits, way_from_edge(square.centre, edges[i]));
+        near |= can_be ? 1u << i : 0u;
+    }
+    return near;
 }
