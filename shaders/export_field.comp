@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Copies the resolved cells of a field tile to the resident images: the signed distance in world
-// units, and the nearest feature as an id.
+// units and, where it is asked for, the nearest feature as an id.
 
 #include "export.glsl"
 
@@ -34,5 +34,7 @@ void main() {
     ivec2 texel = ivec2(push.column, push.row) + ivec2(cell);
     float value = uintBitsToFloat(words[push.value + offset]);
     imageStore(signed_distance, texel, vec4(value * push.cell));
-    imageStore(feature_id, texel, uvec4(id_of(words[push.feature + offset])));
+    if (push.feature != not_asked) {
+        imageStore(feature_id, texel, uvec4(id_of(words[push.feature + offset])));
+    }
 }

@@ -161,7 +161,7 @@ struct ExportPairsPush {
 
 struct ExportFieldPush {
     uint value;    // word of the first cell's value
-    uint feature;  // word of its feature
+    uint feature;  // word of its feature, or not_asked
     uint stride;   // words per row
     uint width;    // cells to copy
     uint height;

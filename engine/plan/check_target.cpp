@@ -197,7 +197,12 @@ Status Targets::add_image(const ResidentImageTarget& target, VkFormat format, st
     return {};
 }
 
-Status Targets::add(const ResidentFieldTarget& target, std::uint32_t query) {
+Status Targets::add(const ResidentFieldTarget& target, bool has_features, std::uint32_t query) {
+    if (!has_features && target.feature.image != VK_NULL_HANDLE) {
+        return refused(feature_name,
+                       "is not null, and the query asks for none of these to stay "
+                       "(DistanceFieldQuery::resident_features)");
+    }
     Status status =
         add_image(target.signed_distance, VK_FORMAT_R32_SFLOAT, signed_distance_name, query);
     return status.ok() ? add_image(target.feature, VK_FORMAT_R32_UINT, feature_name, query)

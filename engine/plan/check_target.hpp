@@ -22,7 +22,9 @@ public:
     /// Forgets this query, the last one added: it is rejected and writes nothing.
     void drop(std::uint32_t query);
     /// Adds what a query writes to. Returns success, or what is wrong with it: then drop it.
-    [[nodiscard]] Status add(const ResidentFieldTarget& target, std::uint32_t query);
+    /// `has_features`: of the field's features, some stay on the device.
+    [[nodiscard]] Status add(const ResidentFieldTarget& target, bool has_features,
+                             std::uint32_t query);
     [[nodiscard]] Status add(const ResidentBufferTarget& target, std::uint32_t query);
 
 private:

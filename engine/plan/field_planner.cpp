@@ -22,7 +22,8 @@ using geometry::Vector;
 /// `side` cells drawn with their halos.
 double bytes_of_cells(const DistanceFieldQuery& query, const FieldParts& parts, const Grid& grid,
                       double side) {
-    const double resident = query.resident ? 2.0 * sizeof(std::uint32_t) : 0.0;
+    const double images = query.resident_features ? 2.0 : 1.0;
+    const double resident = query.resident ? images * sizeof(std::uint32_t) : 0.0;
     const double result = resident + (query.values ? sizeof(float) : 0.0) +
                           (query.features ? sizeof(Feature) : 0.0) +
                           (query.gradients ? 2.0 * sizeof(float) : 0.0) +

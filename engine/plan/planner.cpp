@@ -134,7 +134,11 @@ Status Planner::check(const Query& query, Submissions submissions, const Current
     }
     if constexpr (requires { query.target; }) {
         if (query.resident && query.target != nullptr) {
-            return targets_.add(*query.target, current.index);
+            if constexpr (requires { query.resident_features; }) {
+                return targets_.add(*query.target, query.resident_features, current.index);
+            } else {
+                return targets_.add(*query.target, current.index);
+            }
         }
     }
     return {};

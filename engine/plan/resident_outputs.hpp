@@ -39,6 +39,7 @@ struct FieldOutputs {
     double cell = 0.0;
     double error_bound = 0.0;
     ResidentFieldTarget target;    ///< images of the host, where their handles are not null
+    bool has_features = true;      ///< otherwise there are only distances
     RingTable rings;               ///< of B
     std::uint32_t first_part = 0;  ///< in ResidentOutputs::field_parts
     std::uint32_t part_count = 0;

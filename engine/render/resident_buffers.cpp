@@ -79,9 +79,12 @@ void ResidentBuffers::reserve_images() {
         }
         const plan::FieldOutputs& field = resident_->fields[i];
         const VkExtent2D extent{field.width, field.height};
+        // Of a field without features, an image that nothing is written to.
+        const VkExtent2D of_features = field.has_features ? extent : VkExtent2D{1, 1};
         const bool grown = field.target.signed_distance.image == VK_NULL_HANDLE &&
                            images_[i].signed_distance.reserve(extent);
-        if ((field.target.feature.image == VK_NULL_HANDLE && images_[i].feature.reserve(extent)) ||
+        if ((field.target.feature.image == VK_NULL_HANDLE &&
+             images_[i].feature.reserve(of_features)) ||
             grown) {
             revision_ = next_revision();
         }

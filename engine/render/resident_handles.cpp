@@ -33,7 +33,10 @@ ResidentField ResidentBuffers::field(std::size_t i) const {
     };
     const ResidentImage signed_distance =
         image(field.target.signed_distance, images.signed_distance, views_[i].signed_distance);
-    const ResidentImage feature = image(field.target.feature, images.feature, views_[i].feature);
+    ResidentImage feature;
+    if (field.has_features) {
+        feature = image(field.target.feature, images.feature, views_[i].feature);
+    }
     return {signed_distance,
             feature,
             field.width,

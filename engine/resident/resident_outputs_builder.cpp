@@ -85,7 +85,9 @@ void ResidentOutputsBuilder::find_field_parts(const plan::Plan& plan,
             plan::FieldPartOutput part;
             part.tile_batch = number;
             part.value = field.first_value + corner;
-            part.feature = field.first_feature + corner;
+            const bool has_features =
+                std::get<DistanceFieldQuery>(*plan.queries[tile.query].query).resident_features;
+            part.feature = has_features ? field.first_feature + corner : plan::not_asked;
             part.stride = tile.width;
             part.width = tile.width - 2 * tile.halo;
             part.height = tile.height - 2 * tile.halo;
@@ -111,9 +113,11 @@ void ResidentOutputsBuilder::add_field(const PlannedQuery& planned, std::uint32_
     field.origin = geometry::to_vector(result.origin);
     field.cell = result.cell;
     field.error_bound = planned.budget.bound + plan::far_rounding * planned.field().farthest;
-    if (const auto* const target = std::get<DistanceFieldQuery>(*planned.query).target) {
-        field.target = *target;
+    const auto& asked = std::get<DistanceFieldQuery>(*planned.query);
+    if (asked.target != nullptr) {
+        field.target = *asked.target;
     }
+    field.has_features = asked.resident_features;
     field.rings = add_rings(*planned.b, resident);
     field.first_part = static_cast<std::uint32_t>(resident.field_parts.size());
     const auto first = std::partition_point(

@@ -214,6 +214,9 @@ struct DistanceFieldQuery {
     /// shaders to sample (resident.hpp); for techniques see PenetrationQuery::resident. `values`
     /// and `features` only select what is also returned to the CPU; both may be false.
     bool resident = false;
+    /// False: of these only the image of the signed distance, in a fraction of the time. Ignored if
+    /// `resident` is false.
+    bool resident_features = true;
     /// The host's images that the resident field goes to; null: nearfield's own. Otherwise as
     /// PenetrationQuery::target.
     const ResidentFieldTarget* target = nullptr;

@@ -85,7 +85,8 @@ struct ResidentImageTarget {
 };
 
 /// Where a resident field goes (DistanceFieldQuery::target): one image or both, in the formats of
-/// ResidentField. Cell (0, 0) is texel (0, 0). The header stays nearfield's own.
+/// ResidentField. Cell (0, 0) is texel (0, 0). The header stays nearfield's own. The image of the
+/// features must be null if DistanceFieldQuery::resident_features is false (invalid_query).
 struct ResidentFieldTarget {
     ResidentImageTarget signed_distance = {};  ///< VK_FORMAT_R32_SFLOAT
     ResidentImageTarget feature = {};          ///< VK_FORMAT_R32_UINT
@@ -141,7 +142,8 @@ struct ResidentField {
     /// VK_FORMAT_R32_SFLOAT: signed distance in world units, negative inside B; the same numbers as
     /// DistanceFieldResult::values.
     ResidentImage signed_distance;
-    /// VK_FORMAT_R32_UINT: id of the nearest feature of B's boundary (resident_feature).
+    /// VK_FORMAT_R32_UINT: id of the nearest feature of B's boundary (resident_feature). Null
+    /// handles if DistanceFieldQuery::resident_features is false.
     ResidentImage feature;
     std::uint32_t width = 0;   ///< cells along x
     std::uint32_t height = 0;  ///< cells along y

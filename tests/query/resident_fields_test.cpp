@@ -1,5 +1,6 @@
 #include <tests/query/resident_test.hpp>
 
+#include <cmath>
 #include <vector>
 
 namespace nearfield::test {
@@ -47,6 +48,47 @@ TEST_F(Resident, FieldsOfEveryFamilyAndOfSeveralTilesWithHalos) {
             });
         check_field(pair, field, contents, result);
     }
+}
+
+// Alternately with features, in the same context: images that are there stay as they are.
+TEST_F(Resident, FieldOfDistancesAlone) {
+    for_each_case(field_seed, 4, [&](Random& random) {
+        for (const Technique technique : on_device) {
+            const PlacedPair pair(context(), any_pair(random), technique);
+            SCOPED_TRACE(describe(pair.pair()));
+            DistanceFieldQuery query = field_of(pair, technique);
+            query.features = false;
+            std::vector<float> with_features;
+            ask(context(), query, [&](const ResidentField& resident) {
+                EXPECT_NE(resident.feature.image, VkImage{VK_NULL_HANDLE});
+                with_features = contents_of(resident).values;
+            });
+            query.resident_features = false;
+            for (const bool returns_features : {false, true}) {
+                query.features = returns_features;
+                FieldContents contents;
+                VkExtent2D extent{};
+                const DistanceFieldResult result =
+                    ask(context(), query, [&](const ResidentField& resident) {
+                        EXPECT_EQ(resident.feature.image, VkImage{VK_NULL_HANDLE});
+                        EXPECT_EQ(resident.feature.view, VkImageView{VK_NULL_HANDLE});
+                        extent = resident.image_extent;
+                        contents = contents_of(resident);
+                    });
+                EXPECT_TRUE(result.status.ok()) << result.status.text();
+                EXPECT_GE(extent.width, result.width);
+                EXPECT_EQ(result.features.size(), returns_features ? result.values.size() : 0);
+                EXPECT_EQ(contents.values, result.values);
+                ASSERT_EQ(contents.values.size(), with_features.size());
+                for (std::size_t i = 0; i < with_features.size(); ++i) {
+                    // Without features the distances are found in another way.
+                    const double apart = std::abs(std::abs(contents.values[i]) -
+                                                  std::abs(with_features[i]));
+                    EXPECT_LE(apart, returns_features ? 0.0 : 2.0 * result.error_bound) << i;
+                }
+            }
+        }
+    });
 }
 
 TEST_F(Resident, FieldOfManyRoundsOfWhichNothingComesBack) {

@@ -51,8 +51,10 @@ FieldContents ResidentReader::read(const ResidentField& field) {
     for (const std::uint32_t word : gpu_.read(field.signed_distance, extent, field.state)) {
         contents.values.push_back(std::bit_cast<float>(word));
     }
-    for (const std::uint32_t word : gpu_.read(field.feature, extent, field.state)) {
-        contents.features.push_back(taken_apart(word));
+    if (field.feature.image != VK_NULL_HANDLE) {
+        for (const std::uint32_t word : gpu_.read(field.feature, extent, field.state)) {
+            contents.features.push_back(taken_apart(word));
+        }
     }
     return contents;
 }

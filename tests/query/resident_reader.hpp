@@ -18,7 +18,7 @@ struct FeatureContents {
 
 struct FieldContents {
     std::vector<float> values;              ///< by cell, row by row
-    std::vector<FeatureContents> features;  ///< the same
+    std::vector<FeatureContents> features;  ///< the same; empty if there is no image of them
 };
 
 struct RecordContents : FeatureContents {

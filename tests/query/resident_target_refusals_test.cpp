@@ -80,6 +80,19 @@ private:
     std::optional<HostGpu> gpu_;
 };
 
+TEST_F(TargetRefusals, OfFeaturesThatAreNotToStay) {
+    ResidentFieldTarget target{image_, image_};
+    target.feature.format = VK_FORMAT_R32_UINT;
+    target.feature.layer = 1;
+    DistanceFieldQuery query = field();
+    query.target = &target;
+    query.resident_features = false;
+    expect(run_alone(context(), query).status, "DistanceFieldQuery::resident_features");
+    target.feature = {};
+    const Status status = run_alone(context(), query).status;
+    EXPECT_TRUE(status.ok()) << status.text();
+}
+
 TEST_F(TargetRefusals, OfImages) {
     ResidentFieldTarget good{image_, {}};
     DistanceFieldQuery query = field();
