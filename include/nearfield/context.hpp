@@ -67,8 +67,9 @@ struct Settings {
     /// left out, and a query that names one fails with StatusCode::unsupported_technique in its own
     /// result. Ignored by a context without a device.
     DeviceTechniques techniques = {};
-    /// False: no timestamps are written and no query pool is made, so Timings::passes is empty.
-    alignas(std::uint64_t) bool timestamps = true;  // begins a word: see read_versioned()
+    /// True: timestamps around each pass tell how long it takes (Timings::passes). They cost time
+    /// themselves, since some drivers wait at each: small frames of lavapipe take twice as long.
+    alignas(std::uint64_t) bool timestamps = false;  // begins a word: see read_versioned()
     /// False: the context makes all pipelines when it is created, and no later call makes any.
     /// True: the first call that needs a pipeline makes it, and takes longer: run(), submit(),
     /// record(), collect(), resident_layout(), World::update() or World::submit(). For a program

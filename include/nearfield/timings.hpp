@@ -44,7 +44,7 @@ struct Timings {
     double device = 0.0;
     double decode = 0.0;  ///< reading results and refining them; queries answered by the CPU
     double total = 0.0;   ///< inside submit() and collect(), or run(): work and waiting
-    std::vector<PassTime> passes;  ///< from timestamps; empty if the queue has none
+    std::vector<PassTime> passes;  ///< if Settings::timestamps; empty if the queue has none
     /// One per query, in order; empty unless the batch asked for it (Batch::time_queries).
     std::vector<QueryTime> queries;
 };

@@ -264,7 +264,9 @@ void compare_all(Context& context, const Query& query, bool shows_passes) {
 int main(int count, char** arguments) {
     const bool shows_passes = count > 1 && std::string(arguments[1]) == "--passes";
     try {
-        Context context = take(Context::create_headless());
+        nearfield::Settings settings;
+        settings.timestamps = shows_passes;
+        Context context = take(Context::create_headless({}, settings));
         std::printf("Device: %s\n\n", context.device_name().c_str());
         std::puts(
             "| objects | query | records | pairs | rows | left | CPU: move | CPU: update | update "

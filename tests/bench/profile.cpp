@@ -148,6 +148,12 @@ nearfield::test_support::Lies counting() {
     return lies;
 }
 
+nearfield::Settings with_timestamps() {
+    nearfield::Settings settings;
+    settings.timestamps = true;
+    return settings;
+}
+
 double median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + frames / 2, values.end());
     return values[frames / 2];
@@ -241,7 +247,7 @@ void print_counts() {
 }
 
 void profile(const nearfield::HostDevice& host, const Scene& scene, Technique technique) {
-    Context context = take(Context::create(host));
+    Context context = take(Context::create(host, with_timestamps()));
     const Batch batch = scene.batch(context, technique);
     nearfield::Results results;
     std::vector<nearfield::Timings> timings;
@@ -283,7 +289,7 @@ void profile(const nearfield::HostDevice& host, const Scene& scene, Technique te
 /// All pairs of 1,000 stars of 50 vertices that move, found by the device.
 template <class Query>
 void profile_passes(const nearfield::HostDevice& host, const char* scene, Query query) {
-    Context context = take(Context::create(host));
+    Context context = take(Context::create(host, with_timestamps()));
     nearfield::World world = take(nearfield::World::create(context));
     nearfield::test::Random random(1000);
     std::vector<nearfield::InstanceHandle> instances;

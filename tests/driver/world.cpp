@@ -101,7 +101,9 @@ void World::take_all_before(Step step) {
 Status World::create() {
     HostDevice host = driver_.host();
     host.memory = memory_;
-    Expected<Context> made = Context::create(host);
+    Settings settings;
+    settings.timestamps = true;
+    Expected<Context> made = Context::create(host, settings);
     if (made.has_value()) {
         context_.emplace(std::move(*made));
     }

@@ -110,6 +110,7 @@ void CountedContext::make(const Settings& settings) {
 void CountedContext::make(std::uint32_t frames) {
     Settings settings;
     settings.batches_in_flight = frames;
+    settings.timestamps = true;
     make(settings);
 }
 

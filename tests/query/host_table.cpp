@@ -82,6 +82,7 @@ std::vector<double> Scene::record(const Batch& batch, HostFrames& host, std::uin
 Context HostTable::make(const HostDevice& device, std::uint32_t frames) {
     Settings settings;
     settings.batches_in_flight = frames;
+    settings.timestamps = true;
     Expected<Context> made = Context::create(device, drawing(settings));
     if (!made) {
         throw std::runtime_error(made.error().text());

@@ -32,7 +32,7 @@ class SteadyState : public QueryTest {
 protected:
     void SetUp() override {
         loader_.emplace(host_device(), test_support::watched(host_device(), note_call));
-        Expected<Context> made = Context::create(loader_->host(), drawing());
+        Expected<Context> made = Context::create(loader_->host(), drawing({.timestamps = true}));
         ASSERT_TRUE(made.has_value()) << made.error().text();
         watched_.emplace(std::move(*made));
         EXPECT_FALSE(created.empty()) << "nothing is counted";

@@ -101,6 +101,27 @@ void write_bench_summary(std::ostream& stream, const Measurement& measurement, c
     write_timings_summary(stream, measurement.timings);
 }
 
+/// Timestamps take time, so frames that are measured have none.
+Settings untimed(const BenchArguments& arguments) {
+    Settings settings = parse_settings(arguments.settings);
+    settings.timestamps = false;
+    return settings;
+}
+
+/// Medians of a few frames of their own, with timestamps.
+std::vector<PassTime> passes_of(const Scene& scene, const BenchArguments& arguments,
+                                const Settings& settings) {
+    Context context = open_context(settings, techniques_of(scene));
+    SceneRunner runner(scene, arguments.scene, context);
+    BenchArguments few = arguments;
+    few.frames = std::min<std::uint32_t>(arguments.frames, 9);
+    few.warm_up = std::min<std::uint32_t>(arguments.warm_up, 2);
+    return measure(runner, few).timings.passes;
+}
+
+/// Of the largest rows, unless the user sets another limit.
+constexpr std::uint64_t memory_of_gpu_table = std::uint64_t{4} << 30U;
+
 /// Of the frames of a scene.
 void add_frame_options(CLI::App& command, BenchArguments& arguments, CLI::Option* scene) {
     add_count_option(command, "--frames", arguments.frames, {1, 1'000'000},
@@ -149,7 +170,7 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
         ->add_flag("--gpu", arguments.gpu,
                    "The table that tells when a GPU is worth its while: 1,000 to 100,000 pairs and "
                    "fields of 256 to 4096 cells a side, by each technique; takes minutes where the "
-                   "device is the CPU")
+                   "device is the CPU; --memory-limit is 4096 by default")
         ->excludes(scene)
         ->excludes(paper);
     add_parsed_option(*command, "--curves", arguments.curves, parse_png_name,
@@ -174,19 +195,23 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
 void run_bench(const BenchArguments& arguments) {
     catch_ctrl_c();
     if (arguments.paper) {
-        run_paper_tables(parse_settings(arguments.settings), arguments.json, arguments.curves);
+        run_paper_tables(untimed(arguments), arguments.json, arguments.curves);
         return;
     }
     if (arguments.gpu) {
-        run_gpu_table(arguments.filter, parse_settings(arguments.settings), arguments.json);
+        Settings settings = untimed(arguments);
+        if (!arguments.settings.memory_limit) {
+            settings.memory_limit = memory_of_gpu_table;
+        }
+        run_gpu_table(arguments.filter, settings, arguments.json);
         return;
     }
     if (arguments.scene.empty()) {
-        run_standard_table(arguments.filter, parse_settings(arguments.settings), arguments.json);
+        run_standard_table(arguments.filter, untimed(arguments), arguments.json);
         return;
     }
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
-    const Settings settings = parse_settings(arguments.settings);
+    Settings settings = untimed(arguments);
     Scene scene = read_scene(arguments.scene);
     print_notes(scene);
     set_technique(scene, technique);
@@ -196,7 +221,9 @@ void run_bench(const BenchArguments& arguments) {
     ReportTarget report(arguments.json);
     Context context = open_context(settings, techniques_of(scene));
     SceneRunner runner(scene, arguments.scene, context);
-    const Measurement measurement = measure(runner, arguments);
+    Measurement measurement = measure(runner, arguments);
+    settings.timestamps = true;
+    measurement.timings.passes = passes_of(scene, arguments, settings);
     if (std::ostream* json = report.json()) {
         write_bench_json(*json, measurement, arguments, context.device_name(), runner.technique());
     }

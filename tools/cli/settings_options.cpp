@@ -34,6 +34,7 @@ void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
 
 Settings parse_settings(const SettingsArguments& arguments) {
     Settings settings;
+    settings.timestamps = true;  // reports say what each pass takes
     if (arguments.boxes == "oriented") {
         settings.bounding_volume = BoundingVolume::oriented;
     } else if (arguments.boxes && arguments.boxes != "axis-aligned") {

@@ -104,6 +104,16 @@ void summarize(const Entry& entry, const std::vector<double>& frames_ms, Techniq
     time.timings = benchmark::median_timings(entry.timings, frames_ms.size());
 }
 
+/// Medians of a few frames of their own, since timestamps take time.
+std::vector<PassTime> passes_of(const Scene& scene, Technique technique, Context& context) {
+    constexpr std::size_t frames = 5;
+    Entry entry(scene, technique, context);
+    for (std::size_t frame = 0; frame < 1 + frames; ++frame) {
+        entry.run_frame();
+    }
+    return benchmark::median_timings(entry.timings, frames).passes;
+}
+
 }  // namespace
 
 std::optional<double> TechniqueTime::device_ms() const {
@@ -137,10 +147,17 @@ std::optional<double> RowTimes::automatic_to_best(double benchmark::Spread::*of)
 TechniqueRace::TechniqueRace(const Settings& settings) {
     for (const std::string_view name : technique_names) {
         Runner runner{
-            std::string(name), parse_technique(std::string(name), "standard table"), {}, {}};
+            std::string(name), parse_technique(std::string(name), "standard table"), {}, {}, {}};
         AskedTechniques asked;
         asked.add(runner.technique);
-        runner.missing = refusal_of([&] { runner.context.emplace(open_context(settings, asked)); });
+        Settings with = settings;
+        with.timestamps = true;
+        Settings without = settings;
+        without.timestamps = false;
+        runner.missing = refusal_of([&] {
+            runner.context.emplace(open_context(without, asked));
+            runner.timed.emplace(open_context(with, asked));
+        });
         runners_.push_back(std::move(runner));
     }
 }
@@ -165,6 +182,8 @@ RowTimes TechniqueRace::run(const benchmark::Row& row) {
     for (std::size_t index = 0; index < entries.size(); ++index) {
         if (entries[index] != nullptr) {
             summarize(*entries[index], (contender++)->frames_ms, times.techniques[index]);
+            times.techniques[index].timings.passes =
+                passes_of(scene, runners_[index].technique, *runners_[index].timed);
         }
     }
     return times;

@@ -67,6 +67,7 @@ private:
         Technique technique{};
         std::string missing;             ///< why there is no context
         std::optional<Context> context;  ///< empty if unavailable
+        std::optional<Context> timed;    ///< another one, with timestamps
     };
 
     std::vector<Runner> runners_;

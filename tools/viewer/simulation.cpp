@@ -10,6 +10,7 @@ namespace nearfield::viewer {
 namespace {
 
 Context make_context(const HostDevice& host, Settings settings, const Choices& choices) {
+    settings.timestamps = true;  // the panel shows the passes
     settings.hierarchy_height = choices.hierarchy_height;
     settings.pipelines_on_demand = true;
     return tools::take(Context::create(host, settings));
