@@ -198,7 +198,8 @@ TEST_F(Bench, MeasuresWhenAGpuIsWorthItsWhile) {
     EXPECT_GT(row.at("pairs"), 4 * 420);
     EXPECT_LT(row.at("pairs"), 6 * 420);
     EXPECT_GT(row.at("points"), row.at("pairs"));
-    for (const auto& name : {"cpu", "raster", "compute", "device pairs", "device pairs, read"}) {
+    for (const auto& name : {"cpu", "raster", "compute", "device pairs", "device pairs, read",
+                             "device pairs, resident"}) {
         const Json& time = row.at("times").at(name);
         EXPECT_GE(time.at("frames"), 3) << name;
         EXPECT_GT(time.at("median_ms"), 0.0) << name;

@@ -121,6 +121,11 @@ void write_time(JsonWriter& json, const GpuTime& time) {
     } else {
         json.null();
     }
+    json.key("passes_ms").begin_object();
+    for (const PassTime& pass : time.passes) {
+        json.key(pass.name).value(pass.milliseconds);
+    }
+    json.end_object();
     json.end_object();
 }
 
@@ -131,11 +136,13 @@ void write_gpu_tables(std::ostream& stream, std::span<const GpuRow> rows,
     write_surroundings(stream, surroundings);
     stream << "\n\n"
            << "Medians, milliseconds: a whole frame; of it processor time of the calling thread; "
-              "passes on the device, by timestamps.\n"
+              "passes on the device, by timestamps of other frames.\n"
            << "Crowds: penetration of boundary samples, summaries, all objects move. `device "
-              "pairs`: the rows stay unread; `read`: each is read.\n"
-           << "Fields: values at the cells around a coast line of 8,000 vertices, read back. `-`: "
-              "left out, since a smaller row took more than two seconds.\n";
+              "pairs`: the rows stay unread; `read`: each is read; `resident`: they stay on the "
+              "device with their records, and poses come from a buffer there.\n"
+           << "Fields: values at the cells around a coast line of 8,000 vertices, read back; "
+              "`resident`: in an image on the device. `-`: left out, since a smaller row took more "
+              "than two seconds.\n";
     for (const bool of_pairs : {true, false}) {
         write_table(stream, rows, of_pairs);
         write_crossovers(stream, rows, of_pairs);

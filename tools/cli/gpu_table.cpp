@@ -1,14 +1,15 @@
 #include <tools/benchmark/machine.hpp>
+#include <tools/benchmark/median_timings.hpp>
 #include <tools/benchmark/milliseconds_of.hpp>
 #include <tools/benchmark/spread.hpp>
 #include <tools/cli/gpu_report.hpp>
 #include <tools/cli/gpu_table.hpp>
 #include <tools/cli/gpu_times.hpp>
-#include <tools/cli/open_context.hpp>
 #include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/report_target.hpp>
+#include <tools/rendering/gpu.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,7 +26,8 @@ constexpr double too_long_ms = 2000.0;  ///< a way whose frame takes more has no
 constexpr double enough_ms = 500.0;     ///< of measured frames
 constexpr std::size_t max_frames = 30;
 constexpr std::size_t min_frames = 3;
-constexpr int warm_up = 2;
+constexpr std::size_t warm_up = 2;
+constexpr std::size_t timed_frames = 3;  ///< after one more
 
 double processor_ms() {
     timespec now{};
@@ -35,47 +37,40 @@ double processor_ms() {
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-std::optional<double> device_ms(const Timings& timings) {
-    if (timings.passes.empty()) {
-        return std::nullopt;
-    }
-    return std::accumulate(
-        timings.passes.begin(), timings.passes.end(), 0.0,
-        [](double sum, const PassTime& pass) { return sum + pass.milliseconds; });
+double sum_of(const std::vector<PassTime>& passes) {
+    return std::accumulate(passes.begin(), passes.end(), 0.0, [](double sum, const PassTime& pass) {
+        return sum + pass.milliseconds;
+    });
 }
 
 GpuTime measure(GpuWork& work, const std::string& way) {
-    for (int frame = 0; frame < warm_up; ++frame) {
+    for (std::size_t frame = 0; frame < warm_up; ++frame) {
         stop_after_ctrl_c();
         work.run_frame();
     }
     std::vector<double> frames;
     std::vector<double> cpu;
-    std::vector<double> device;
     double spent = 0.0;
     while (frames.size() < min_frames || (frames.size() < max_frames && spent < enough_ms)) {
         stop_after_ctrl_c();
         const double begin = processor_ms();
         frames.push_back(benchmark::milliseconds_of([&] { work.run_frame(); }));
         cpu.push_back(processor_ms() - begin);
-        if (const std::optional<double> passes = device_ms(work.timings())) {
-            device.push_back(*passes);
-        }
         spent += frames.back();
     }
     const std::size_t count = frames.size();
-    return {way, count, benchmark::spread_of(std::move(frames)).median,
-            benchmark::spread_of(std::move(cpu)).median,
-            device.empty() ? std::nullopt
-                           : std::optional(benchmark::spread_of(std::move(device)).median)};
+    return {.way = way,
+            .frames = count,
+            .frame = benchmark::spread_of(std::move(frames)).median,
+            .cpu = benchmark::spread_of(std::move(cpu)).median};
 }
 
-/// Measures rows one after the other; each way has a context of its own.
+/// Measures rows one after the other; each way has a context of its own, on the same device.
 class GpuRace {
 public:
-    explicit GpuRace(const Settings& settings) : settings_(settings) {
-        device_ = open().device_name();  // fails where there is none, before any work
-    }
+    /// Fails where there is no device, before any work.
+    explicit GpuRace(const Settings& settings)
+        : settings_(settings), device_(open(false).device_name()) {}
 
     GpuRow run(const GpuRowPlan& plan) {
         GpuRow row{plan.name, plan.has_pairs, plan.cells, 0, {}};
@@ -104,21 +99,40 @@ public:
 
 private:
     void run(const GpuRowPlan::Way& way, GpuRow& row) const {
-        Context context = open();
-        const std::unique_ptr<GpuWork> work = way.make(context);
+        Context context = open(false);
+        const std::unique_ptr<GpuWork> work = way.make(context, gpu_);
         row.times.push_back(measure(*work, way.name));
         row.found = std::max(row.found, work->found());
         row.size = row.has_pairs ? std::max(row.size, work->pairs()) : row.size;
+        if (way.uses_device) {
+            time_passes(way, row.times.back());
+        }
     }
 
-    [[nodiscard]] Context open() const {
-        AskedTechniques asked;
-        asked.add(Technique::raster);
-        asked.add(Technique::compute);
-        return open_context(settings_, asked);
+    /// In frames of their own, since timestamps take time.
+    void time_passes(const GpuRowPlan::Way& way, GpuTime& time) const {
+        Context context = open(true);
+        const std::unique_ptr<GpuWork> work = way.make(context, gpu_);
+        std::vector<Timings> frames;
+        for (std::size_t frame = 0; frame < 1 + timed_frames; ++frame) {
+            stop_after_ctrl_c();
+            work->run_frame();
+            frames.push_back(work->timings());
+        }
+        time.passes = benchmark::median_timings(frames, timed_frames).passes;
+        time.device = sum_of(time.passes);
+    }
+
+    [[nodiscard]] Context open(bool timestamps) const {
+        Settings settings = settings_;
+        settings.pipelines_on_demand = true;
+        settings.timestamps = timestamps;
+        return take(Context::create(gpu_.host_device(), settings));
     }
 
     Settings settings_;
+    GpuInstance instance_;
+    Gpu gpu_{instance_};
     std::string device_;
     std::set<std::string> too_slow_;
 };

@@ -12,13 +12,16 @@
 
 namespace nearfield::tools {
 
+class Gpu;
+
 /// Medians of one way to do the work of a row, in milliseconds a frame.
 struct GpuTime {
     std::string way;
     std::size_t frames = 0;  ///< 0: refused, or left out, since a smaller row took too long
     double frame = 0.0;
     double cpu = 0.0;                             ///< processor time of the calling thread
-    std::optional<double> device = std::nullopt;  ///< by timestamps; empty if it did nothing
+    std::optional<double> device = std::nullopt;  ///< by timestamps; empty if it is not used
+    std::vector<PassTime> passes = {};            ///< medians, of frames with timestamps
     std::string refusal = {};                     ///< why the row is too large for it
 };
 
@@ -47,7 +50,8 @@ public:
 struct GpuRowPlan {
     struct Way {
         std::string name;
-        std::function<std::unique_ptr<GpuWork>(Context&)> make;
+        bool uses_device = true;
+        std::function<std::unique_ptr<GpuWork>(Context&, const Gpu&)> make;
     };
     std::string name;
     bool has_pairs = false;
