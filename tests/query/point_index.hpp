@@ -48,13 +48,14 @@ private:
     [[nodiscard]] std::int64_t row(const Vector2& p) const {
         return static_cast<std::int64_t>(std::floor((p.y - origin_.y) / radius_));
     }
-    static std::int64_t key(std::int64_t column, std::int64_t row) {
-        return column * 0x100000000 + row;
+    /// Modulo 2^64: squares far apart may share one.
+    static std::uint64_t key(std::int64_t column, std::int64_t row) {
+        return static_cast<std::uint64_t>(column) * 0x100000000 + static_cast<std::uint64_t>(row);
     }
 
     double radius_;
     Vector2 origin_;
-    std::unordered_map<std::int64_t, std::vector<Vector2>> squares_;
+    std::unordered_map<std::uint64_t, std::vector<Vector2>> squares_;
 };
 
 }  // namespace nearfield::test
