@@ -1,6 +1,7 @@
 #include <tools/benchmark/median_timings.hpp>
 #include <tools/benchmark/spread.hpp>
 
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,12 @@ Timings median_timings(std::span<const Timings> frames, std::size_t measured) {
              })});
     }
     return result;
+}
+
+double sum_of(std::span<const PassTime> passes) {
+    return std::accumulate(passes.begin(), passes.end(), 0.0, [](double sum, const PassTime& pass) {
+        return sum + pass.milliseconds;
+    });
 }
 
 }  // namespace nearfield::benchmark

@@ -222,8 +222,10 @@ void run_bench(const BenchArguments& arguments) {
     Context context = open_context(settings, techniques_of(scene));
     SceneRunner runner(scene, arguments.scene, context);
     Measurement measurement = measure(runner, arguments);
-    settings.timestamps = true;
-    measurement.timings.passes = passes_of(scene, arguments, settings);
+    if (!context.device_name().empty()) {
+        settings.timestamps = true;
+        measurement.timings.passes = passes_of(scene, arguments, settings);
+    }
     if (std::ostream* json = report.json()) {
         write_bench_json(*json, measurement, arguments, context.device_name(), runner.technique());
     }

@@ -15,9 +15,9 @@
 #include <algorithm>
 #include <ctime>
 #include <iostream>
-#include <numeric>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace nearfield::tools {
 namespace {
@@ -35,12 +35,6 @@ double processor_ms() {
         throw std::runtime_error("this system does not tell a thread's processor time");
     }
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double sum_of(const std::vector<PassTime>& passes) {
-    return std::accumulate(passes.begin(), passes.end(), 0.0, [](double sum, const PassTime& pass) {
-        return sum + pass.milliseconds;
-    });
 }
 
 GpuTime measure(GpuWork& work, const std::string& way) {
@@ -101,12 +95,13 @@ private:
     void run(const GpuRowPlan::Way& way, GpuRow& row) const {
         Context context = open(false);
         const std::unique_ptr<GpuWork> work = way.make(context, gpu_);
-        row.times.push_back(measure(*work, way.name));
+        GpuTime time = measure(*work, way.name);
+        if (way.uses_device) {
+            time_passes(way, time);
+        }
+        row.times.push_back(std::move(time));
         row.found = std::max(row.found, work->found());
         row.size = row.has_pairs ? std::max(row.size, work->pairs()) : row.size;
-        if (way.uses_device) {
-            time_passes(way, row.times.back());
-        }
     }
 
     /// In frames of their own, since timestamps take time.
@@ -120,7 +115,7 @@ private:
             frames.push_back(work->timings());
         }
         time.passes = benchmark::median_timings(frames, timed_frames).passes;
-        time.device = sum_of(time.passes);
+        time.device = benchmark::sum_of(time.passes);
     }
 
     [[nodiscard]] Context open(bool timestamps) const {

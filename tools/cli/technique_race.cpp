@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -120,9 +119,7 @@ std::optional<double> TechniqueTime::device_ms() const {
     if (timings.passes.empty()) {
         return std::nullopt;
     }
-    return std::accumulate(
-        timings.passes.begin(), timings.passes.end(), 0.0,
-        [](double sum, const PassTime& pass) { return sum + pass.milliseconds; });
+    return benchmark::sum_of(timings.passes);
 }
 
 const TechniqueTime* RowTimes::find(const std::string& technique) const {
