@@ -66,7 +66,8 @@ ComputeLayout::ComputeLayout(const gpu::Device& device)
 
 void ComputeLayout::write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer,
                                  VkDeviceSize offset, VkDeviceSize bytes) const {
-    constexpr VkDeviceSize unit = plan::bytes_of_unit;  // of which MappedBuffer's sizes are multiples
+    // MappedBuffer's sizes are multiples of this unit.
+    constexpr VkDeviceSize unit = plan::bytes_of_unit;
     write_host_buffer(set, binding, buffer, offset, (bytes + unit - 1) / unit * unit);
 }
 

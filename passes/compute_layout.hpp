@@ -57,8 +57,8 @@ public:
     /// The device must not be using the sets.
     void begin_updates() const;
     void end_updates() const;
-    /// A part of a MappedBuffer, up to the next whole unit of 16 bytes: shaders read words as vectors
-    /// of four, and of a vector that ends beyond the range some devices read zeros.
+    /// A part of a MappedBuffer, up to the next whole unit of 16 bytes: shaders read words as
+    /// vectors of four, and of a vector that ends beyond the range some devices read zeros.
     void write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer, VkDeviceSize offset,
                       VkDeviceSize bytes) const;
     /// A part of a buffer of the host's, which may end with it.

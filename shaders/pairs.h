@@ -100,15 +100,15 @@ const uint max_instances = 1u << 18u;
 // The steps of one walk over the boxes of instances, each of which is one turn of a loop: some
 // drivers end the loops of an invocation without notice after 65,535 turns.
 const uint max_instance_steps = 60000u;
-// So many pairs of each instance are kept while they are counted. Where there are more, a second walk
-// lists them.
+// So many pairs of each instance are kept while they are counted. Where there are more, a second
+// walk lists them.
 const uint kept_pairs = 16u;
 const uint units_of_list = 1u + kept_pairs / 4u;
 // Fewer pairs than this are listed. In place of a number that is too large, or that a walk that is
 // too long has not counted.
 const uint max_pairs = 1u << 24u;
-// Points of one pair whose depths one thread compares, in up to five turns for four points; pairs with
-// more are the CPU's.
+// Points of one pair whose depths one thread compares, in up to five turns for four points; pairs
+// with more are the CPU's.
 const uint max_compared_depths = 48000u;
 // The same of each direction of a pair of contacts. Loops over both, and the one that finds rings,
 // with up to 16 turns of inner loops in each of its own, add up even if neighbouring threads take

@@ -82,8 +82,8 @@ TEST_F(Resident, FieldOfDistancesAlone) {
                 ASSERT_EQ(contents.values.size(), with_features.size());
                 for (std::size_t i = 0; i < with_features.size(); ++i) {
                     // Without features the distances are found in another way.
-                    const double apart = std::abs(std::abs(contents.values[i]) -
-                                                  std::abs(with_features[i]));
+                    const double apart =
+                        std::abs(std::abs(contents.values[i]) - std::abs(with_features[i]));
                     EXPECT_LE(apart, returns_features ? 0.0 : 2.0 * result.error_bound) << i;
                 }
             }
