@@ -3,10 +3,10 @@
 #include <nearfield/portable_math.hpp>
 #include <nearfield/shape.hpp>
 
-// Eigen fuses multiplications with additions where a processor can, which changes roundings.
-#if !defined(__SSE2__) || defined(__FMA__)
+// Eigen's vectors fuse products with sums where a processor can, which changes roundings. They also
+// load two numbers at once that GCC 12, which makes no such vectors (cmake/modules.cmake), has just
+// stored one after the other: the processor waits until both are in its cache.
 #define EIGEN_DONT_VECTORIZE
-#endif
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
