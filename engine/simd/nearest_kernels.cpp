@@ -274,7 +274,8 @@ public:
           margin_(margin),
           near_(near),
           crowded_(crowded),
-          nearest_(nearest) {}
+          nearest_(nearest),
+          most_visits_(std::max(few_visits, 2 * tree.edges().count / groups_of(points.count))) {}
 
     /// For consecutive points, or lists them as crowded.
     void Solve(std::uint32_t first, std::uint32_t together) {
@@ -282,7 +283,7 @@ public:
             SetAside(first, together);
             return;
         }
-        VisitsLeft left{most_visits};
+        VisitsLeft left{most_visits_};
         Solve(first, together, left);
         trials_.record(left.count == 0);
     }
@@ -292,8 +293,11 @@ public:
 
 private:
     // Several times what a tree takes that divides the edges well.
-    static constexpr std::uint32_t most_visits = 128;
+    static constexpr std::uint32_t few_visits = 128;
 
+    [[nodiscard]] static std::uint32_t groups_of(std::uint32_t points) {
+        return points / max_together + 1;
+    }
     void SetAside(std::uint32_t first, std::uint32_t together) {
         for (std::uint32_t i = first; i < first + together; ++i) {
             crowded_[crowded_count_++] = i;
@@ -333,6 +337,9 @@ private:
     std::uint32_t crowded_count_ = 0;
     SearchTrials trials_;  // of groups
     const NearestArrays& nearest_;
+    // Of a group. It may take about as long as its share of a division of all edges: for few points
+    // the tree is quicker even if it does not help much.
+    std::uint32_t most_visits_;
     std::uint32_t last_ = 0;  // the edge nearest to the previous points
 };
 
