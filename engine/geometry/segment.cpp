@@ -7,6 +7,8 @@
 namespace nearfield::geometry {
 namespace {
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 /// The side of the line through a and b that the point p is on: 1 left, -1 right, 0 on it.
 int side(const Vector& a, const Vector& b, const Vector& p) {
     const double determinant = cross(b - a, p - a);
@@ -35,6 +37,32 @@ bool may_be_near(const Vector& p, const Vector& from, const Vector& to, double m
     return std::abs(cross(along, p - from)) <= 4.0 * margin * along.lpNorm<1>();
 }
 
+/// The parameter on ab of its crossing with cd, if each end is certainly more than `margin` from
+/// the other segment's line, and the crossing certainly beside cd. Otherwise, `never`.
+double clear_crossing(const Vector& a, const Vector& b, const Vector& c, const Vector& d,
+                      double margin) {
+    const Vector along = b - a;
+    const Vector across = d - c;
+    const double a_side = cross(across, a - c);
+    const double b_side = cross(across, b - c);
+    const double c_side = cross(along, c - a);
+    const double d_side = cross(along, d - a);
+    // The sum of the coordinates bounds the length from above and needs no square root.
+    const double reach = 4.0 * margin;
+    const bool is_clear =
+        a_side * b_side < 0.0 && c_side * d_side < 0.0 &&
+        std::min(std::abs(a_side), std::abs(b_side)) > reach * across.lpNorm<1>() &&
+        std::min(std::abs(c_side), std::abs(d_side)) > reach * along.lpNorm<1>();
+    if (!is_clear) {
+        return never;
+    }
+    const double parameter = a_side / (a_side - b_side);
+    const double at = parameter * along.squaredNorm();
+    const double at_c = along.dot(c - a);
+    const double at_d = along.dot(d - a);
+    return std::min(at_c, at_d) < at && at < std::max(at_c, at_d) ? parameter : never;
+}
+
 }  // namespace
 
 bool segments_intersect(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
@@ -58,24 +86,28 @@ bool segments_meet(const Vector& a, const Vector& b, const Vector& c, const Vect
            near(d, a, b);
 }
 
-std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vector& c,
-                                    const Vector& d, double margin) {
+double first_meeting(const Vector& a, const Vector& b, const Vector& c, const Vector& d,
+                     double margin) {
+    // Almost all meetings are of this kind.
+    const double crossing = clear_crossing(a, b, c, d, margin);
+    if (crossing != never) {
+        return crossing;
+    }
     const double reach = margin * margin;
     if (may_be_near(a, c, d, margin) && nearest_on_segment(a, c, d).squared_distance <= reach) {
         return 0.0;
     }
     // Either an end of cd touches ab, or the other end of ab touches cd, or they cross.
-    std::optional<double> first;
-    const auto take = [&](double parameter) { first = std::min(first.value_or(1.0), parameter); };
+    double first = never;
     const NearestOnSegment at_c = nearest_on_segment(c, a, b);
     const NearestOnSegment at_d = nearest_on_segment(d, a, b);
     for (const NearestOnSegment& end : {at_c, at_d}) {
         if (end.squared_distance <= reach) {
-            take(end.parameter);
+            first = std::min(first, end.parameter);
         }
     }
     if (may_be_near(b, c, d, margin) && nearest_on_segment(b, c, d).squared_distance <= reach) {
-        take(1.0);
+        first = std::min(first, 1.0);
     }
     if (segments_intersect(a, b, c, d)) {
         const double a_side = std::abs(cross(d - c, a - c));
@@ -84,7 +116,7 @@ std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vect
             // Of segments that are almost parallel the sides are little more than rounding, but the
             // crossing is beside cd all the same.
             const auto [low, high] = std::minmax(at_c.parameter, at_d.parameter);
-            take(std::clamp(a_side / (a_side + b_side), low, high));
+            first = std::min(first, std::clamp(a_side / (a_side + b_side), low, high));
         }
     }
     return first;

@@ -2,8 +2,6 @@
 
 #include <engine/geometry/vector.hpp>
 
-#include <optional>
-
 namespace nearfield::geometry {
 
 /// The point of a segment nearest to a given point.
@@ -58,9 +56,9 @@ struct ClosestOfSegments {
                                  double margin);
 
 /// Returns the least parameter (0 at a, 1 at b) at which segment ab is at most `margin` from
-/// segment cd, up to a distance of `margin`; nothing if it never is. Meant for segments that are on
-/// neither side of each other's line: others are not ruled out quickly.
-[[nodiscard]] std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vector& c,
-                                                  const Vector& d, double margin);
+/// segment cd, up to a distance of `margin`; infinity if it never is. Meant for segments that are
+/// on neither side of each other's line: others are not ruled out quickly.
+[[nodiscard]] double first_meeting(const Vector& a, const Vector& b, const Vector& c,
+                                   const Vector& d, double margin);
 
 }  // namespace nearfield::geometry

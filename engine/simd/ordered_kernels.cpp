@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <type_traits>
 
 // Highway compiles the rest once per instruction set by including this file again.
 #undef HWY_TARGET_INCLUDE
@@ -215,26 +216,39 @@ void MeasureBoxes(const BoxArrays& boxes, std::uint32_t first, const Extent& fro
     }
 }
 
-HWY_INLINE void enter_boxes(PathStep& step) {
+/// `groups`: a constant where there is one, which needs no loop.
+template <class Count>
+HWY_INLINE void enter_boxes(PathStep& step, Count groups) {
     const Tag tag;
     const PathLanes path(step.path, step.inverse);
     // Twice the margin, because the values that boxes are compared by are rounded too.
     const Lanes margin = hn::Set(tag, 2.0 * step.margin);
     const Lanes bound = hn::Set(tag, step.bound);
-    const BoxArrays boxes{fan_out, step.low_x, step.low_x + step.stride,
-                          step.low_x + 2 * step.stride, step.low_x + 3 * step.stride};
     Lanes least = hn::Set(tag, std::numeric_limits<double>::infinity());
-    step.met = bits_of_eight([&](std::size_t i) HWY_ATTR {
-        const Lanes keys = entries(boxes_at(boxes, i), path, margin);
-        hn::StoreU(keys, tag, step.keys.data() + i);
-        least = hn::Min(least, keys);
-        return hn::Le(keys, bound);
-    });
+    std::uint32_t met = 0;
+    for (std::uint32_t group = 0; group < groups; ++group) {
+        const double* const low_x = step.low_x + std::size_t{group} * step.group_stride;
+        const BoxArrays boxes{fan_out, low_x, low_x + step.stride, low_x + 2 * step.stride,
+                              low_x + 3 * step.stride};
+        double* const own = step.keys + group * fan_out;
+        met |= bits_of_eight([&](std::size_t i) HWY_ATTR {
+                   const Lanes keys = entries(boxes_at(boxes, i), path, margin);
+                   hn::StoreU(keys, tag, own + i);
+                   least = hn::Min(least, keys);
+                   return hn::Le(keys, bound);
+               })
+               << (group * fan_out);
+    }
     const Lanes nearest = hn::Set(tag, min_lane(least));
-    step.nearest =
-        static_cast<std::uint32_t>(std::countr_zero(bits_of_eight([&](std::size_t i) HWY_ATTR {
-            return hn::Eq(hn::LoadU(tag, step.keys.data() + i), nearest);
-        })));
+    std::uint32_t nearest_ones = 0;
+    for (std::uint32_t group = 0; group < groups; ++group) {
+        const std::uint32_t equal = bits_of_eight([&](std::size_t i) HWY_ATTR {
+            return hn::Eq(hn::LoadU(tag, step.keys + group * fan_out + i), nearest);
+        });
+        nearest_ones |= equal << (group * fan_out);
+    }
+    step.met = met;
+    step.nearest = static_cast<std::uint32_t>(std::countr_zero(nearest_ones));
 }
 
 HWY_INLINE void meet_edges(PathStep& step) {
@@ -246,13 +260,15 @@ HWY_INLINE void meet_edges(PathStep& step) {
         });
 }
 
-void TakeSteps(std::span<PathStep> steps) {
-    for (PathStep& step : steps) {
-        if (step.edges == nullptr) {
-            enter_boxes(step);
-        } else {
-            meet_edges(step);
-        }
+void TakeSteps(std::span<PathStep> steps, const PathLists& paths) {
+    for (const std::uint32_t path : paths.of(PathLists::one_group)) {
+        enter_boxes(steps[path], std::integral_constant<std::uint32_t, 1>());
+    }
+    for (const std::uint32_t path : paths.of(PathLists::groups)) {
+        enter_boxes(steps[path], steps[path].groups);
+    }
+    for (const std::uint32_t path : paths.of(PathLists::edges)) {
+        meet_edges(steps[path]);
     }
 }
 
@@ -299,8 +315,8 @@ void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& fr
     HWY_DYNAMIC_DISPATCH(MeasureBoxes)(boxes, first, from, squared);
 }
 
-void take_steps(std::span<PathStep> steps) {
-    HWY_DYNAMIC_DISPATCH(TakeSteps)(steps);
+void take_steps(std::span<PathStep> steps, const PathLists& paths) {
+    HWY_DYNAMIC_DISPATCH(TakeSteps)(steps, paths);
 }
 
 Extent join_boxes(const BoxArrays& boxes, std::uint32_t first) {

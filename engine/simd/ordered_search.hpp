@@ -2,6 +2,7 @@
 
 #include <engine/simd/aabb_tree.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -67,20 +68,45 @@ private:
     }
 };
 
-/// What a path comes to next: eight boxes, or the edges of a lowest box.
+/// What a path comes to next: groups of eight boxes, or the edges of a lowest box.
 struct PathStep {
+    static constexpr std::uint32_t max_groups = 4;
+
     Path path;
     PathInverse inverse{path};
     double margin = 0.0;
-    double bound = 1.0;                 ///< largest parameter of interest; at most 1
-    const EdgeArrays* edges = nullptr;  ///< null: boxes are tested
-    EdgeRange range;                    ///< of the edges
-    const double* low_x = nullptr;      ///< of the boxes; their low y, high x and high y follow ...
-    std::size_t stride = 0;             ///< ... at this distance from each other
+    double bound = 1.0;              ///< largest parameter of interest; at most 1
+    std::uint32_t groups = 0;        ///< of boxes, at most max_groups; 0: edges are tested
+    std::uint32_t group_stride = 0;  ///< from one group to the next
+    const double* low_x = nullptr;   ///< of the boxes; their low y, high x and high y follow ...
+    std::size_t stride = 0;          ///< ... at this distance from each other
+    /// Receives the parameters at which the path enters the boxes, for max_groups groups.
+    double* keys = nullptr;
+    const EdgeArrays* edges = nullptr;
+    EdgeRange range;  ///< of the edges
     // Found:
     std::uint32_t met = 0;      ///< one bit per box, or edge, that the path may meet
     std::uint32_t nearest = 0;  ///< of the boxes met, the one that the path enters first
-    BoxKeys keys = {};          ///< the parameters at which it enters the boxes
+};
+
+/// Numbers of paths, listed by what their next steps test, so that no branch depends on that.
+struct PathLists {
+    static constexpr std::size_t max_paths = 24;
+    enum Kind : std::uint32_t { edges, one_group, groups, kinds };
+
+    std::array<std::array<std::uint32_t, max_paths>, kinds> numbers;
+    std::array<std::uint32_t, kinds> counts = {};
+
+    void add(std::uint32_t number, const PathStep& step) {
+        const std::uint32_t kind = std::min(step.groups, std::uint32_t{groups});
+        numbers[kind][counts[kind]++] = number;
+    }
+    [[nodiscard]] std::span<const std::uint32_t> of(Kind kind) const {
+        return std::span(numbers[kind]).first(counts[kind]);
+    }
+    [[nodiscard]] bool empty() const {
+        return std::all_of(counts.begin(), counts.end(), [](std::uint32_t n) { return n == 0; });
+    }
 };
 
 namespace kernels {
@@ -104,9 +130,9 @@ double for_closest_to_few(const FewEdges& few, const AabbTree& tree, double most
 void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,
                    BoxKeys& squared);
 
-/// Takes one step of each of several paths: finds the boxes that it comes within twice the margin
-/// of at a parameter of at most the bound, or the edges that it may come within the margin of.
-void take_steps(std::span<PathStep> steps);
+/// Takes one step of each path listed: finds the boxes that it comes within twice the margin of at
+/// a parameter of at most the bound, or the edges that it may come within the margin of.
+void take_steps(std::span<PathStep> steps, const PathLists& paths);
 
 /// Returns the bounding box of eight boxes.
 [[nodiscard]] Extent join_boxes(const BoxArrays& boxes, std::uint32_t first);

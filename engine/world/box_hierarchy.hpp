@@ -53,6 +53,12 @@ public:
     [[nodiscard]] std::uint32_t top_level() const {
         return static_cast<std::uint32_t>(levels_.size()) - 1;
     }
+    /// The number of nodes of a level. Their boxes are `doubles_per_node` from each other in
+    /// memory.
+    [[nodiscard]] std::size_t node_count(std::uint32_t level) const {
+        return levels_[level].size();
+    }
+    static constexpr std::uint32_t doubles_per_node = 4 * simd::AabbTree::fan_out;
     /// Eight boxes of a level; those under its box i are number i of the level below.
     [[nodiscard]] simd::BoxArrays boxes(std::uint32_t level, std::uint32_t number) const {
         return levels_[level][number].boxes();

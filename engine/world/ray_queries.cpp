@@ -7,8 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <utility>
 
 namespace nearfield::world {
 
@@ -17,8 +15,13 @@ using geometry::Vector;
 namespace {
 
 /// The number of segments that are followed at the same time.
-constexpr std::size_t slots = 16;
+constexpr std::size_t slots = simd::PathLists::max_paths;
 constexpr std::uint32_t fan_out = simd::AabbTree::fan_out;
+constexpr std::uint32_t max_groups = simd::PathStep::max_groups;
+
+std::uint32_t groups_of(const simd::BoxArrays& boxes) {
+    return simd::AabbTree::boxes_over(boxes.count);
+}
 
 /// True if an edge joins two vertices at the same place. It has no normal, and the edges beside it
 /// are hit wherever it would be.
@@ -32,9 +35,9 @@ bool is_repeated_vertex(const simd::TransformedEdges& edges, std::uint32_t edge)
 }
 
 void test_boxes(simd::PathStep& step, const double* low_x, std::size_t stride) {
-    step.edges = nullptr;
     step.low_x = low_x;
     step.stride = stride;
+    step.groups = 1;
     prefetch(low_x);
     prefetch(low_x + stride);
     prefetch(low_x + 2 * stride);
@@ -42,6 +45,7 @@ void test_boxes(simd::PathStep& step, const double* low_x, std::size_t stride) {
 }
 
 void test_edges(simd::PathStep& step, const simd::EdgeArrays& edges, const simd::EdgeRange& range) {
+    step.groups = 0;
     step.edges = &edges;
     step.range = range;
     prefetch(edges.start_x + range.first);
@@ -62,20 +66,36 @@ std::uint32_t first_of(std::uint32_t bits) {
     return static_cast<std::uint32_t>(std::countr_zero(bits));
 }
 
+/// A unit vector. Squares of lengths that are neither tiny nor huge can be used.
+Vector normalized(const Vector& v) {
+    constexpr double low = 1e-200;
+    constexpr double high = 1e200;
+    const double squared = v.squaredNorm();
+    return squared > low && squared < high ? Vector(v / std::sqrt(squared)) : v.stableNormalized();
+}
+
 }  // namespace
 
 void RayQueries::begin(const Instances& instances, const WorldFilter& filter) {
     instances_ = &instances;
     filter_ = filter;
+    const BoxHierarchy& boxes = instances.boxes();
+    if (boxes.has_boxes()) {
+        top_ = {boxes.top_level(), 1};
+        while (top_.level > 0 && boxes.node_count(top_.level - 1) <= max_groups) {
+            --top_.level;
+            top_.groups = static_cast<std::uint32_t>(boxes.node_count(top_.level));
+        }
+    }
 }
 
 void RayQueries::reserve(std::size_t count) {
     if (searches_.size() < count) {
-        later_.resize(count);
+        keys_.resize(max_levels * count);
         steps_.resize(count);
         searches_.resize(count);  // last: if memory runs out before, all is done again
         for (std::size_t i = 0; i < count; ++i) {
-            searches_[i].later = later_[i].data();
+            searches_[i].keys = &keys_[max_levels * i];
         }
     }
 }
@@ -92,11 +112,14 @@ void RayQueries::start(Search& search, simd::PathStep& step, const Segment& segm
     search.edges = nullptr;
     search.later_count = 0;
     search.has_found = false;
-    search.level = instances_->boxes().top_level();
+    search.level = top_.level;
     search.first = 0;
     step.margin = instances_->max_rounding() + search.rounding;
     step.bound = 1.0;
     test_boxes(step, instances_->boxes().boxes(search.level, 0).low_x, fan_out);
+    step.groups = top_.groups;
+    step.keys = search.keys->of.data();
+    step.group_stride = BoxHierarchy::doubles_per_node;
 }
 
 inline bool RayQueries::enter(Search& search, simd::PathStep& step, std::uint32_t box) const {
@@ -121,24 +144,32 @@ inline bool RayQueries::enter(Search& search, simd::PathStep& step, std::uint32_
     }
     search.edges = &instances_->edges(search.instance);
     search.tree = &instances_->tree(search.instance);
+    // Several groups of boxes at once save the levels above them.
     search.level = search.tree->top_level();
+    std::uint32_t groups = 1;
+    while (search.level > 0 && groups_of(search.tree->level(search.level - 1)) <= max_groups) {
+        groups = groups_of(search.tree->level(--search.level));
+    }
     search.first = 0;
     step.margin = search.edges->rounding + search.rounding;
     const simd::BoxArrays& top = search.tree->level(search.level);
     test_boxes(step, top.low_x, simd::padded(top.count));
+    step.groups = groups;
+    step.group_stride = fan_out;
     return true;
 }
 
 inline std::uint32_t RayQueries::take_later(Search& search, simd::PathStep& step) const {
     while (search.later_count > 0) {
         Later& later = search.later[search.later_count - 1];
+        const auto& keys = search.keys[search.later_count - 1].of;
         std::uint32_t nearest = first_of(later.left);
         for (std::uint32_t others = later.left & (later.left - 1); others != 0;
              others &= others - 1) {
             const std::uint32_t other = first_of(others);
-            nearest = later.keys[other] < later.keys[nearest] ? other : nearest;
+            nearest = keys[other] < keys[nearest] ? other : nearest;
         }
-        const bool is_near = later.keys[nearest] <= step.bound;
+        const bool is_near = keys[nearest] <= step.bound;
         later.left &= ~(1U << nearest);
         search.later_count -= later.left == 0 || !is_near ? 1 : 0;
         if (is_near) {
@@ -166,32 +197,32 @@ inline void RayQueries::use_edges(Search& search, simd::PathStep& step) {
     const simd::TransformedEdges& edges = *search.edges;
     for (std::uint32_t met = step.met; met != 0; met &= met - 1) {
         const std::uint32_t edge = step.range.first + first_of(met);
-        const std::optional<double> parameter =
+        const double parameter =
             geometry::first_meeting(start_of(step.path), end_of(step.path), edges.start(edge),
                                     edges.end(edge), edges.rounding + search.rounding);
-        if (parameter && !is_repeated_vertex(edges, edge)) {
-            take(search, {*parameter, instances_->number(search.instance), search.instance, edge});
+        if (parameter <= step.bound && !is_repeated_vertex(edges, edge)) {
+            take(search, {parameter, instances_->number(search.instance), search.instance, edge});
             step.bound = all_ ? 1.0 : search.found.parameter;
         }
     }
 }
 
-inline bool RayQueries::advance(Search& search, simd::PathStep& step) {
-    std::uint32_t box = BoxHierarchy::nowhere;
-    if (step.edges != nullptr) {
-        use_edges(search, step);
-    } else if (step.met != 0) {
-        box = search.first + step.nearest;
-        const std::uint32_t others = step.met & ~(1U << step.nearest);
-        if (others != 0) {
-            Later& later = search.later[search.later_count++];
-            later.keys = step.keys;
-            later.left = others;
-            later.first = search.first;
-            later.level = search.level;
-            later.are_instances = search.edges == nullptr;
-        }
+inline std::uint32_t RayQueries::use_boxes(Search& search, const simd::PathStep& step) const {
+    if (step.met == 0) {
+        return BoxHierarchy::nowhere;
     }
+    // Their keys are in place. No branch, which nobody could predict: if no others are left, the
+    // next step takes this place.
+    Later& later = search.later[search.later_count];
+    later.left = step.met & ~(1U << step.nearest);
+    later.first = search.first;
+    later.level = search.level;
+    later.are_instances = search.edges == nullptr;
+    search.later_count += later.left != 0 ? 1 : 0;
+    return search.first + step.nearest;
+}
+
+inline bool RayQueries::go_on(Search& search, simd::PathStep& step, std::uint32_t box) const {
     for (;;) {
         if (box == BoxHierarchy::nowhere) {
             box = take_later(search, step);
@@ -200,28 +231,31 @@ inline bool RayQueries::advance(Search& search, simd::PathStep& step) {
             }
         }
         if (enter(search, step, box)) {
+            step.keys = search.keys[search.later_count].of.data();
             return true;
         }
         box = BoxHierarchy::nowhere;
     }
 }
 
-RayHit RayQueries::hit_of(const Search& search, const simd::Path& path, const Found& found) const {
+void RayQueries::write(const Search& search, const simd::Path& path, const Found& found,
+                       RayHit& hit) const {
     const simd::TransformedEdges& edges = instances_->edges(found.instance);
     const Vector way = end_of(path) - start_of(path);
     const Vector along = edges.end(found.edge) - edges.start(found.edge);
     // Far from the origin an edge may be shorter than what rounding leaves of it.
     const bool has_length = along != Vector::Zero();
-    Vector normal = (has_length ? Vector(-along.y(), along.x()) : Vector(-way)).stableNormalized();
+    Vector normal = normalized(has_length ? Vector(-along.y(), along.x()) : Vector(-way));
     // Against the way, without a branch, which nobody could predict.
     normal *= std::copysign(1.0, 0.0 - normal.dot(way));
+    hit.instance = instances_->handle(found.instance);
+    hit.parameter = found.parameter;
     // What is as close as rounding allows is hit; the edge and the point are rounded once more.
-    return {instances_->handle(found.instance),
-            found.parameter,
-            2.0 * (edges.rounding + search.rounding) + instances_->deviation(found.instance),
-            geometry::to_public(start_of(path) + found.parameter * way),
-            geometry::to_public(normal),
-            found.edge};
+    hit.error_bound =
+        2.0 * (edges.rounding + search.rounding) + instances_->deviation(found.instance);
+    hit.point = geometry::to_public(start_of(path) + found.parameter * way);
+    hit.normal = geometry::to_public(normal);
+    hit.edge = found.edge;
 }
 
 void RayQueries::find_first(std::span<const Segment> segments,
@@ -247,26 +281,38 @@ void RayQueries::find_first(std::span<const Segment> segments,
         prefetch(&hits[number].edge);
         start(searches_[slot], steps_[slot], segments[number], number);
     };
-    std::size_t active = std::min(slots, numbers.size());
-    for (std::size_t slot = 0; slot < active; ++slot) {
+    simd::PathLists next;
+    for (std::uint32_t slot = 0; slot < std::min(slots, numbers.size()); ++slot) {
         start_next(slot);
+        next.add(slot, steps_[slot]);
     }
-    while (active > 0) {
-        simd::kernels::take_steps(std::span(steps_).first(active));
-        for (std::size_t slot = 0; slot < active; ++slot) {
-            Search& search = searches_[slot];
-            if (advance(search, steps_[slot])) {
-                continue;
-            }
-            hits[search.number] =
-                search.has_found ? hit_of(search, steps_[slot].path, search.found) : RayHit{};
-            if (started < numbers.size()) {
-                start_next(slot);
+    const auto follow = [&](std::uint32_t slot, std::uint32_t box) {
+        Search& search = searches_[slot];
+        simd::PathStep& step = steps_[slot];
+        if (!go_on(search, step, box)) {
+            if (search.has_found) {
+                write(search, step.path, search.found, hits[search.number]);
             } else {
-                --active;
-                std::swap(search, searches_[active]);
-                std::swap(steps_[slot], steps_[active]);
-                --slot;  // the last one has taken this place
+                hits[search.number] = {};
+            }
+            if (started == numbers.size()) {
+                return;
+            }
+            start_next(slot);
+        }
+        next.add(slot, step);
+    };
+    while (!next.empty()) {
+        const simd::PathLists now = next;
+        next.counts = {};
+        simd::kernels::take_steps(steps_, now);
+        for (const std::uint32_t slot : now.of(simd::PathLists::edges)) {
+            use_edges(searches_[slot], steps_[slot]);
+            follow(slot, BoxHierarchy::nowhere);
+        }
+        for (const auto kind : {simd::PathLists::one_group, simd::PathLists::groups}) {
+            for (const std::uint32_t slot : now.of(kind)) {
+                follow(slot, use_boxes(searches_[slot], steps_[slot]));
             }
         }
     }
@@ -282,12 +328,21 @@ void RayQueries::find_all(const Segment& segment, std::vector<RayHit>& hits) {
     Search& search = searches_.front();
     simd::PathStep& step = steps_.front();
     start(search, step, segment, 0);
+    std::uint32_t box = BoxHierarchy::nowhere;
     do {
-        simd::kernels::take_steps({&step, 1});
-    } while (advance(search, step));
+        simd::PathLists only;
+        only.add(0, step);
+        simd::kernels::take_steps(steps_, only);
+        if (step.groups == 0) {
+            use_edges(search, step);
+            box = BoxHierarchy::nowhere;
+        } else {
+            box = use_boxes(search, step);
+        }
+    } while (go_on(search, step, box));
     std::sort(all_found_.begin(), all_found_.end());
     for (const Found& found : all_found_) {
-        hits.push_back(hit_of(search, step.path, found));
+        write(search, step.path, found, hits.emplace_back());
     }
 }
 

@@ -42,13 +42,21 @@ private:
         }
     };
 
-    /// Boxes that a segment enters later.
+    /// The parameters at which a segment enters boxes.
+    struct alignas(64) Keys {
+        std::array<double, std::size_t{simd::PathStep::max_groups} * simd::AabbTree::fan_out> of;
+    };
+    /// Boxes that a segment enters later. Their keys have the same index.
     struct Later {
-        simd::BoxKeys keys;
         std::uint32_t left;   // one bit per box
         std::uint32_t first;  // of the boxes
         std::uint32_t level;
         bool are_instances;  // of the world's hierarchy, not of an instance's tree
+    };
+    /// Where searches of the world's hierarchy begin: with all boxes of a level of few groups.
+    struct Top {
+        std::uint32_t level = 0;
+        std::uint32_t groups = 0;
     };
     /// Levels of a world's hierarchy and of an instance's tree.
     static constexpr std::size_t max_levels = 24;
@@ -66,30 +74,35 @@ private:
         bool has_found = false;
         Found found = {};  // the first
         double rounding = 0.0;
-        Later* later = nullptr;  // later_count of them
+        Keys* keys = nullptr;
+        std::array<Later, max_levels> later = {};  // later_count of them
     };
 
     /// Begins to follow a segment.
     void start(Search& search, simd::PathStep& step, const Segment& segment, std::uint32_t number);
-    /// Looks at what the last step found, and prepares the next one; returns false at the end.
-    [[nodiscard]] bool advance(Search& search, simd::PathStep& step);
+    /// Returns the box to enter, or `nowhere`, and keeps the others for later.
+    [[nodiscard]] std::uint32_t use_boxes(Search& search, const simd::PathStep& step) const;
+    void use_edges(Search& search, simd::PathStep& step);
+    /// Prepares the step into a box or, if that is `nowhere`, into one of those kept; returns false
+    /// at the end.
+    [[nodiscard]] bool go_on(Search& search, simd::PathStep& step, std::uint32_t box) const;
     /// Prepares the step into a box; returns false if there is nothing in it.
     [[nodiscard]] bool enter(Search& search, simd::PathStep& step, std::uint32_t box) const;
     /// Returns the next box to enter, or `nowhere`.
     [[nodiscard]] std::uint32_t take_later(Search& search, simd::PathStep& step) const;
-    void use_edges(Search& search, simd::PathStep& step);
     void take(Search& search, const Found& found);
-    [[nodiscard]] RayHit hit_of(const Search& search, const simd::Path& path,
-                                const Found& found) const;
+    /// Every member of the hit: to write them in place is quicker than to copy a hit.
+    void write(const Search& search, const simd::Path& path, const Found& found, RayHit& hit) const;
     /// Makes room for that many segments at the same time.
     void reserve(std::size_t count);
 
     const Instances* instances_ = nullptr;
     WorldFilter filter_;
+    Top top_;
     bool all_ = false;
     std::vector<Search> searches_;
-    std::vector<simd::PathStep> steps_;                 // of the searches
-    std::vector<std::array<Later, max_levels>> later_;  // of the searches, in any order
+    std::vector<simd::PathStep> steps_;  // of the searches
+    std::vector<Keys> keys_;             // max_levels of each search
     std::vector<Found> all_found_;
 };
 
