@@ -2,20 +2,33 @@
 #include <passes/search_shaders.hpp>
 
 #include <shaders/pair_poses_comp.hpp>
+#include <shaders/pairs.h>
 
 namespace nearfield::passes {
 
 using graph::Access;
 
 PairPoses::PairPoses(const gpu::Device& device, const ComputeLayout& layout)
-    : shader_(device, layout, shaders::pair_poses_comp, "nearfield pair poses",
+    : functions_(&device.functions()),
+      shader_(device, layout, shaders::pair_poses_comp, "nearfield pair poses",
               search_constants(device, true)),
       poses_(graph_.import_buffer({"poses of the host"},
                                   {.before = Access::storage_write_in_compute})),
       shapes_(graph_.import_buffer({"pair shapes", true, false})),
-      instances_(graph_.import_buffer({"pair instances", true, false},
-                                      {.after = Access::storage_read_in_compute})),
-      taken_(graph_.import_buffer({"pair poses", true, true})) {
+      // The search before may still read these, and write those.
+      instances_(graph_.import_buffer(
+          {"pair instances", true, false},
+          {.before = Access::storage_read_in_compute, .after = Access::storage_read_in_compute})),
+      taken_(graph_.import_buffer({"pair poses", false, true},
+                                  {.before = Access::storage_write_in_compute})) {
+    graph_.add_pass(
+        "clear pair poses", graph::PassKind::compute,
+        [this](graph::PassBuilder& pass) { taken_ = pass.write(taken_, Access::transfer_write); },
+        [this](VkCommandBuffer commands, const Item& item) {
+            // So far there is no pose that cannot be used.
+            functions_->vkCmdFillBuffer(commands, item.taken, 0, sizeof(plan::no_instance),
+                                        plan::no_instance);
+        });
     graph_.add_pass(
         "pair poses", graph::PassKind::compute,
         [this](graph::PassBuilder& pass) {

@@ -13,8 +13,8 @@
 
 namespace nearfield::passes {
 
-/// The pass that takes the poses of a world's instances from a buffer of the host's, in a separate
-/// graph; PairSearch follows it in the same commands.
+/// The passes that take the poses of a world's instances from a buffer of the host's, in a separate
+/// graph; PairSearch follows them in the same commands.
 class PairPoses {
 public:
     PairPoses(const gpu::Device& device, const ComputeLayout& layout);
@@ -34,9 +34,10 @@ public:
         return graph_.print(format, title);
     }
 
-    static constexpr std::uint32_t max_passes = 1;
+    static constexpr std::uint32_t max_passes = 2;
 
 private:
+    const gpu::Functions* functions_;
     ComputeShader shader_;
     graph::RecordedGraph<Item> graph_;
     graph::Handle poses_;

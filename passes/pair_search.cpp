@@ -4,18 +4,28 @@ namespace nearfield::passes {
 
 using graph::Access;
 
+namespace {
+
+/// The same commands may be submitted again, so what they write waits for the search before.
+constexpr graph::ExternalAccess after_reads{.before = Access::storage_read_in_compute};
+constexpr graph::ExternalAccess after_writes{.before = Access::storage_write_in_compute};
+constexpr graph::ExternalAccess after_dispatches{.before = Access::indirect_arguments};
+
+}  // namespace
+
 PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders, plan::PairGoal goal)
-    : shaders_(&shaders),
+    : functions_(&device.functions()),
+      shaders_(&shaders),
       input_(graph_.import_buffer({"pair shapes", true, false})),
       instances_(graph_.import_buffer({"pair instances", true, false})),
-      scratch_(graph_.import_buffer({"pair scratch"})),
-      arguments_(graph_.import_buffer({"pair arguments", true, true})),
-      row_buffer_(graph_.import_buffer({"pair rows", true, true})) {
+      scratch_(graph_.import_buffer({"pair scratch"}, after_reads)),
+      arguments_(graph_.import_buffer({"pair arguments", true, true}, after_dispatches)),
+      row_buffer_(graph_.import_buffer({"pair rows", false, true}, after_writes)) {
     declare_pairs();
     if (goal == plan::PairGoal::tests) {
         declare_tests();
     } else {
-        records_ = graph_.import_buffer({"pair points", false, true});
+        records_ = graph_.import_buffer({"pair points", false, true}, after_reads);
         declare_points(goal);
     }
     graph_.compile(device);
@@ -62,8 +72,11 @@ void PairSearch::declare_pairs() {
         "pair levels", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+            row_buffer_ = pass.write(row_buffer_, Access::transfer_write);
         },
         [this](VkCommandBuffer commands, const Item& item) {
+            // So far there is no row that the CPU decides (shaders/pair_rows.comp).
+            functions_->vkCmdFillBuffer(commands, item.rows, 0, sizeof(plan::PairRowData), 0);
             shaders_->levels.bind(commands, item.sets[of_instances]);
             push(commands, item, shaders_->levels, 0, 0);
             shaders_->levels.dispatch(commands, 1);

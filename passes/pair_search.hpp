@@ -17,7 +17,7 @@ namespace nearfield::passes {
 /// listed, and their directions; then the search for points (PointSearch) in all of them and a
 /// summary per pair, or a test whether the two shapes meet; last, the rows of those pairs that have
 /// an answer. The number of dispatches depends neither on the number of instances nor on that of
-/// pairs.
+/// pairs. The commands need nothing from the CPU, so that they can be submitted again and again.
 class PairSearch {
 public:
     /// The shaders must stay.
@@ -65,6 +65,7 @@ private:
     static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                      std::uint32_t first, std::uint32_t stage);
 
+    const gpu::Functions* functions_;
     const PairShaders* shaders_;
     graph::RecordedGraph<Item> graph_;
     graph::Handle input_;

@@ -54,6 +54,8 @@ const char* to_string(StatusCode code) noexcept {
             return "cancelled";
         case StatusCode::budget_exhausted:
             return "budget_exhausted";
+        case StatusCode::overflow:
+            return "overflow";
     }
     return "unknown";
 }

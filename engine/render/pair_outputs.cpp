@@ -54,9 +54,13 @@ void PairOutputs::reserve(std::uint32_t pairs, std::uint32_t records) {
     record_room_ = records;
 }
 
-void PairOutputs::bind(const Input& input) const {
+void PairOutputs::bind(const Input& input) {
     using Layout = passes::ComputeLayout;
     using passes::ExportPairs;
+    item_.search = &input.search;
+    item_.pairs = pairs_.handle();
+    item_.records = records_.handle();
+    item_.headers = headers_.handle();
     layout_->begin_updates();
     const auto write = [&](ExportPairs::Set set, Layout::Binding binding, const Part& part) {
         layout_->write_buffer(item_.sets[set], binding, part.buffer, 0, part.bytes);
@@ -75,16 +79,6 @@ void PairOutputs::bind(const Input& input) const {
     write(ExportPairs::of_headers, Layout::tiles, input.arguments);
     write(ExportPairs::of_headers, Layout::output, {item_.headers, 2 * bytes_between_headers});
     layout_->end_updates();
-}
-
-void PairOutputs::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                         const Input& input) {
-    item_.search = &input.search;
-    item_.pairs = pairs_.handle();
-    item_.records = records_.handle();
-    item_.headers = headers_.handle();
-    bind(input);
-    passes_->record(commands, timestamps, item_);
 }
 
 ResidentPairs PairOutputs::pairs() const {

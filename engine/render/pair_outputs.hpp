@@ -44,14 +44,16 @@ public:
         Part shapes, instances, scratch, arguments, found, rows;
         VkBufferView texels, scratch_texels;
     };
-    /// Records the passes. The device must not be working at what was recorded before.
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Input& input);
+    /// Says for which search the passes are recorded. The device must not be working at what was
+    /// recorded before.
+    void bind(const Input& input);
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
+        passes_->record(commands, timestamps, item_);
+    }
 
     [[nodiscard]] ResidentPairs pairs() const;
 
 private:
-    void bind(const Input& input) const;
-
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
     gpu::MappedBuffer pairs_;

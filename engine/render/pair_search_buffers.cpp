@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <utility>
 
 namespace nearfield::render {
 namespace {
@@ -23,8 +24,8 @@ constexpr PairCounts first_of_tests{16384, 0, 0, 4096, 4096, 1024};
 
 /// Of each stage, where there is no memory for the usual ones.
 constexpr std::uint32_t least_capacity = 64;
-/// Sums end at 2^30 (shaders/search_scan.comp), and a thread has a number of 32 bits.
-constexpr std::uint32_t max_counted = 1U << 29U;
+/// In place of the number of pairs until the device has counted them.
+constexpr std::uint32_t not_counted = UINT32_MAX;
 
 std::uint64_t instance_bytes(std::uint32_t count) {
     return sizeof(plan::PairQueryData) +
@@ -60,8 +61,8 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                question.reads_points() ? gpu::Direction::readback : gpu::Direction::none,
                "nearfield pair points"),
-      rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
-            "nearfield pair rows"),
+      rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+            gpu::Direction::readback, "nearfield pair rows"),
       sets_(device, layout, names_of_pair_sets) {
     arguments_.reserve(argument_bytes(plan::stages_of_pairs));
     item_.capacities = question.goal == plan::PairGoal::tests ? first_of_tests : first_capacities;
@@ -215,64 +216,67 @@ void PairSearchBuffers::bind() const {
     layout_->end_updates();
 }
 
-void PairSearchBuffers::record(bool takes_poses) {
-    VkCommandBuffer commands = submission_.begin(true);
+/// Lets the commands that follow be about the present memory, and about where poses come from and
+/// results go. Whatever can fail is done here, before anything is recorded.
+void PairSearchBuffers::prepare(bool takes_poses) {
+    checkpoint();
+    if (!is_laid_out_) {
+        is_bound_ = false;
+        lay_out();
+    }
+    clear_counts(arguments_, plan::stages_of_pairs);
+    const std::uint32_t revision = takes_poses ? poses_.revision() : 0;
+    if (!is_bound_ || bound_poses_ != revision || bound_outputs_ != outputs_.revision()) {
+        is_bound_ = is_recorded_ = false;
+        bind_ends(takes_poses);
+        bound_poses_ = revision;
+        bound_outputs_ = outputs_.revision();
+        is_bound_ = true;
+    }
+}
+
+/// Where poses come from, and where results go.
+void PairSearchBuffers::bind_ends(bool takes_poses) {
+    if (takes_poses) {
+        poses_.bind({item_.shapes, shape_bytes_}, texels_.get(),
+                    {item_.instances, instance_bytes(instance_room_)}, item_.push.instances);
+    }
+    if (outputs_.is_set()) {
+        outputs_.bind({.search = item_,
+                       .shapes = {item_.shapes, shape_bytes_},
+                       .instances = {item_.instances, instance_bytes(instance_room_)},
+                       .scratch = {item_.scratch, scratch_bytes_},
+                       .arguments = {item_.arguments, argument_bytes(plan::stages_of_pairs)},
+                       .found = {item_.records, records_bytes()},
+                       .rows = {item_.rows, bytes_of_rows(item_.capacities[plan::row_total])},
+                       .texels = texels_.get(),
+                       .scratch_texels = scratch_texels_.get()});
+    }
+}
+
+void PairSearchBuffers::write_commands(VkCommandBuffer commands, bool takes_poses) {
     timestamps_.reset(commands);
     if (takes_poses) {
-        poses_.record(commands, timestamps_, {item_.shapes, shape_bytes_}, texels_.get(),
-                      {item_.instances, instance_bytes(instance_room_)}, item_.push.instances);
+        poses_.record(commands, timestamps_);
     }
     passes_->record(commands, timestamps_, item_);
     if (outputs_.is_set()) {
-        outputs_.record(commands, timestamps_,
-                        {.search = item_,
-                         .shapes = {item_.shapes, shape_bytes_},
-                         .instances = {item_.instances, instance_bytes(instance_room_)},
-                         .scratch = {item_.scratch, scratch_bytes_},
-                         .arguments = {item_.arguments, argument_bytes(plan::stages_of_pairs)},
-                         .found = {item_.records, records_bytes()},
-                         .rows = {item_.rows, bytes_of_rows(item_.capacities[plan::row_total])},
-                         .texels = texels_.get(),
-                         .scratch_texels = scratch_texels_.get()});
+        outputs_.record(commands, timestamps_);
     }
 }
 
 /// The commands stay the same as long as the memory does, and where poses come from and results go.
 void PairSearchBuffers::submit(bool takes_poses, Timings& timings) {
-    checkpoint();
     const Stopwatch start;
-    if (!is_laid_out_) {
-        is_recorded_ = false;
-        lay_out();
-    }
-    clear_counts(arguments_, plan::stages_of_pairs);
-    std::memset(rows_.data(), 0, sizeof(plan::PairRowData));
-    rows_.flush();
-    const std::uint32_t revision = takes_poses ? poses_.revision() : 0;
-    const bool is_recorded =
-        is_recorded_ && recorded_poses_ == revision && recorded_outputs_ == outputs_.revision();
-    if (!is_recorded) {
-        is_recorded_ = false;
-        record(takes_poses);
-        recorded_poses_ = revision;
-        recorded_outputs_ = outputs_.revision();
-    }
-    if (takes_poses) {
-        poses_.begin();
-    }
-    if (is_recorded) {
+    prepare(takes_poses);
+    if (is_recorded_) {
         submission_.submit_again();
     } else {
+        write_commands(submission_.begin(true), takes_poses);
         submission_.submit();
     }
     is_submitted_ = is_recorded_ = true;
     timings.record += start.milliseconds();
-}
-
-void PairSearchBuffers::read_back() {
-    submission_.wait();
-    is_submitted_ = false;
-    read_counts(arguments_, counts_);
 }
 
 void PairSearchBuffers::read_undecided() {
@@ -283,51 +287,8 @@ void PairSearchBuffers::read_undecided() {
     std::sort(undecided_.begin(), undecided_.end());
 }
 
-/// Makes room for what the device has counted, and a little more if that fits. Later stages have
-/// counted nothing of what earlier ones had no room for, so they grow when their turn comes.
-void PairSearchBuffers::grow() {
-    if (counts_[plan::pair_total] >= plan::max_pairs) {
-        throw StatusException(
-            {StatusCode::too_large,
-             "the world has 2^24 pairs or more, or an instance whose box overlaps "
-             "with those of some 50,000 others"});
-    }
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-        if (counts_[i] > max_counted) {
-            throw StatusException({StatusCode::too_large,
-                                   "the pairs of the world need more than 2^29 steps of a search; "
-                                   "ask about fewer or smaller instances"});
-        }
-        needed_[i] = std::max(needed_[i], counts_[i]);
-        if (counts_[i] > item_.capacities[i]) {
-            item_.capacities[i] = counts_[i] + counts_[i] / 4;
-        }
-    }
-    is_laid_out_ = false;
-}
-
-void PairSearchBuffers::begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-                              std::uint64_t memory_limit, Timings& timings) {
-    passes_ = &passes;
-    memory_limit_ = memory_limit;
-    upload_shapes(shapes);
-    instances_.flush();
-    submit(poses_.is_set(), timings);
-}
-
-void PairSearchBuffers::finish(Timings& timings) {
-    for (;;) {
-        const Stopwatch waiting;
-        read_back();
-        timings.device += waiting.milliseconds();
-        timestamps_.collect(timings.passes);
-        if (have_room(counts_, item_.capacities)) {
-            break;
-        }
-        grow();
-        // The places that the poses gave are still there; the host may have overwritten the poses.
-        submit(false, timings);
-    }
+/// What there was room for.
+void PairSearchBuffers::read_results() {
     if (poses_.is_set()) {
         poses_.finish();
     }
@@ -336,6 +297,94 @@ void PairSearchBuffers::finish(Timings& timings) {
     if (records_.data() != nullptr) {
         records_.invalidate();
     }
+}
+
+/// Makes room for what the device has counted, and a little more if that fits.
+void PairSearchBuffers::grow(const PairCounts& counts) {
+    require_countable(counts);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        needed_[i] = std::max(needed_[i], counts[i]);
+    }
+    item_.capacities = grown(counts, item_.capacities);
+    is_laid_out_ = false;
+}
+
+void PairSearchBuffers::upload(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
+                               std::uint64_t memory_limit) {
+    passes_ = &passes;
+    memory_limit_ = memory_limit;
+    if (std::exchange(is_for_host_, false)) {
+        const auto counts = executed_counts();
+        if (counts && !have_room(*counts, item_.capacities)) {
+            grow(*counts);
+        }
+    }
+    upload_shapes(shapes);
+    instances_.flush();
+}
+
+void PairSearchBuffers::begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
+                              std::uint64_t memory_limit, Timings& timings) {
+    upload(passes, shapes, memory_limit);
+    submit(poses_.is_set(), timings);
+}
+
+void PairSearchBuffers::finish(Timings& timings) {
+    for (;;) {
+        const Stopwatch waiting;
+        submission_.wait();
+        is_submitted_ = false;
+        read_counts(arguments_, counts_);
+        timings.device += waiting.milliseconds();
+        timestamps_.collect(timings.passes);
+        if (have_room(counts_, item_.capacities)) {
+            break;
+        }
+        grow(counts_);
+        // The places that the poses gave are still there; the host may have overwritten the poses.
+        submit(false, timings);
+    }
+    read_results();
+}
+
+void PairSearchBuffers::record(VkCommandBuffer commands, const passes::PairSearch& passes,
+                               const plan::SearchShapes& shapes, std::uint64_t memory_limit,
+                               Timings& timings) {
+    upload(passes, shapes, memory_limit);
+    const Stopwatch start;
+    prepare(poses_.is_set());
+    std::memcpy(arguments_.data() + offset_of_count(plan::pair_total), &not_counted,
+                sizeof(not_counted));
+    arguments_.flush();
+    device_->begin_label(commands, "nearfield");
+    write_commands(commands, poses_.is_set());
+    device_->end_label(commands);
+    is_for_host_ = true;
+    timings.record += start.milliseconds();
+}
+
+/// Of the commands that were recorded for the host; none if the device has not executed them.
+std::optional<PairCounts> PairSearchBuffers::executed_counts() const {
+    PairCounts counts{};
+    read_counts(arguments_, counts);
+    return counts[plan::pair_total] == not_counted ? std::nullopt : std::optional(counts);
+}
+
+void PairSearchBuffers::collect(Timings& timings) {
+    const std::optional<PairCounts> counts = executed_counts();
+    if (!counts) {
+        throw StatusException(
+            {StatusCode::not_executed,
+             "the frame of this table counts as complete, but the device did not execute the "
+             "commands recorded for it; was the command buffer submitted?"});
+    }
+    timestamps_.collect(timings.passes);
+    require_countable(*counts);
+    if (!have_room(*counts, item_.capacities)) {
+        throw StatusException(overflow(*counts, item_.capacities));
+    }
+    counts_ = *counts;
+    read_results();
 }
 
 }  // namespace nearfield::render

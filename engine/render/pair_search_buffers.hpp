@@ -7,6 +7,7 @@
 #include <engine/gpu/timestamps.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
+#include <engine/render/pair_counts.hpp>
 #include <engine/render/pair_outputs.hpp>
 #include <engine/render/pose_source.hpp>
 #include <nearfield/timings.hpp>
@@ -20,16 +21,14 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace nearfield::render {
 
-/// By stage (shaders/search.h): edges, points, points found, pairs, their items, and rows.
-using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
-
 /// The memory of a search for all pairs of a world's instances, with its descriptor sets and its
-/// submission. It only grows.
+/// submission, or what it has recorded for a host. It only grows.
 class PairSearchBuffers {
 public:
     PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
@@ -66,6 +65,17 @@ public:
     /// Waits for what was begun; submits as often as it takes to have room for all. Throws as
     /// begin(). Adds the times of the waits and of the passes, and as begin().
     void finish(Timings& timings);
+
+    /// In place of begin(): records the same into a command buffer of the host, which may submit it
+    /// again and again. Throws as begin(); then nothing is recorded.
+    void record(VkCommandBuffer commands, const passes::PairSearch& passes,
+                const plan::SearchShapes& shapes, std::uint64_t memory_limit, Timings& timings);
+    /// In place of finish(), once the device is done, and as often as it is: reads what the last
+    /// execution left. Throws StatusException: (not_executed) if there was none, (overflow) if it
+    /// had no room, which the next begin() or record() makes. Adds the times of the passes.
+    void collect(Timings& timings);
+    /// Of the last search nothing is of use.
+    void forget_counts() { counts_ = {}; }
 
     [[nodiscard]] const PairCounts& counts() const { return counts_; }
     /// The rows that the CPU has to decide, in ascending order.
@@ -105,12 +115,17 @@ private:
     }
     void lay_out();
     void bind() const;
-    /// `takes_poses`: of the host; otherwise the instances are placed already.
+    void upload(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
+                std::uint64_t memory_limit);
+    // `takes_poses`: of the host; otherwise the instances are placed already.
+    void prepare(bool takes_poses);
+    void bind_ends(bool takes_poses);
+    void write_commands(VkCommandBuffer commands, bool takes_poses);
     void submit(bool takes_poses, Timings& timings);
-    void record(bool takes_poses);
-    void read_back();
     void read_undecided();
-    void grow();
+    void read_results();
+    [[nodiscard]] std::optional<PairCounts> executed_counts() const;
+    void grow(const PairCounts& counts);
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
@@ -134,11 +149,13 @@ private:
     std::uint64_t shape_bytes_ = 0;
     std::uint64_t shapes_revision_ = 0;
     std::uint64_t scratch_bytes_ = 0;
-    std::uint32_t recorded_poses_ = 0;    // revision of those that the commands take; 0: none
-    std::uint32_t recorded_outputs_ = 0;  // revision of what they leave on the device
+    std::uint32_t bound_poses_ = 0;    // revision of those that commands take; 0: none
+    std::uint32_t bound_outputs_ = 0;  // revision of what they leave on the device
     bool is_submitted_ = false;
     bool is_laid_out_ = false;
-    bool is_recorded_ = false;  // since then
+    bool is_bound_ = false;     // since then, as are the next two
+    bool is_recorded_ = false;  // for submit()
+    bool is_for_host_ = false;  // recorded for the host
     std::vector<std::uint32_t> undecided_;
     PairCounts counts_{};
     PairCounts needed_{};  // capacities without anything to spare

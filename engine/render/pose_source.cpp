@@ -23,8 +23,8 @@ float rounded_down(double value) {
 
 PoseSource::PoseSource(const gpu::Device& device, const passes::ComputeLayout& layout)
     : layout_(&layout),
-      taken_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
-             "nearfield pair poses"),
+      taken_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+             gpu::Direction::readback, "nearfield pair poses"),
       sets_(device, layout, names_of_pose_sets) {
     item_.set = sets_[0];
 }
@@ -48,8 +48,8 @@ void PoseSource::set(const passes::PairPoses& passes, const DevicePoses& poses,
     item_.push.farthest = rounded_down(farthest);
 }
 
-void PoseSource::record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Part& shapes,
-                        VkBufferView texels, const Part& instances, std::uint32_t instance_count) {
+void PoseSource::bind(const Part& shapes, VkBufferView texels, const Part& instances,
+                      std::uint32_t instance_count) {
     using Layout = passes::ComputeLayout;
     taken_.reserve(bytes_of_pose * (1 + std::uint64_t{instance_count}));
     layout_->begin_updates();
@@ -64,12 +64,6 @@ void PoseSource::record(VkCommandBuffer commands, gpu::Timestamps& timestamps, c
     item_.instances = instances.buffer;
     item_.taken = taken_.handle();
     item_.push.instances = instance_count;
-    passes_->record(commands, timestamps, item_);
-}
-
-void PoseSource::begin() const {
-    std::memcpy(taken_.data(), &plan::no_instance, sizeof(plan::no_instance));
-    taken_.flush();
 }
 
 std::optional<std::uint32_t> PoseSource::unusable() const {

@@ -34,12 +34,14 @@ public:
         VkBuffer buffer = VK_NULL_HANDLE;
         std::uint64_t bytes = 0;
     };
-    /// Records the pass. The device must not be working at what was recorded before.
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Part& shapes,
-                VkBufferView texels, const Part& instances, std::uint32_t instance_count);
-    /// Call before each submission of what was recorded,
-    void begin() const;
-    /// and once the device is done.
+    /// Says for which search the passes are recorded. The device must not be working at what was
+    /// recorded before.
+    void bind(const Part& shapes, VkBufferView texels, const Part& instances,
+              std::uint32_t instance_count);
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
+        passes_->record(commands, timestamps, item_);
+    }
+    /// Call once the device is done.
     void finish() const { taken_.invalidate(); }
 
     /// The first instance whose pose cannot be used.

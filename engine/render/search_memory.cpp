@@ -46,9 +46,7 @@ void clear_counts(const gpu::MappedBuffer& arguments, std::uint64_t stages) {
 void read_counts(const gpu::MappedBuffer& arguments, std::span<std::uint32_t> counts) {
     arguments.invalidate();
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        std::memcpy(&counts[i],
-                    arguments.data() + (plan::words_of_arguments * i + 3) * sizeof(std::uint32_t),
-                    sizeof(counts[i]));
+        std::memcpy(&counts[i], arguments.data() + offset_of_count(i), sizeof(counts[i]));
     }
 }
 

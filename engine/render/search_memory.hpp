@@ -45,6 +45,10 @@ bool reserve_with_texels(const gpu::Device& device, gpu::MappedBuffer& buffer,
 [[nodiscard]] constexpr std::uint64_t argument_bytes(std::uint64_t stages) {
     return stages * plan::words_of_arguments * sizeof(std::uint32_t);
 }
+/// Where they have the number that a stage counted, in bytes.
+[[nodiscard]] constexpr std::uint64_t offset_of_count(std::uint64_t stage) {
+    return (stage * plan::words_of_arguments + 3) * sizeof(std::uint32_t);
+}
 /// Empties the arguments, so that a device that is lost leaves no counts of an earlier search.
 void clear_counts(const gpu::MappedBuffer& arguments, std::uint64_t stages);
 /// Reads what each stage counted; call once the device is done.

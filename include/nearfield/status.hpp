@@ -40,6 +40,7 @@ enum class StatusCode {
     invalid_shader,    ///< a shader does not compile; the reasons are the compiler's messages
     cancelled,         ///< the caller cancelled the call (Limits::cancel) before this was done
     budget_exhausted,  ///< the time budget of the call (Limits::seconds) ended before
+    overflow,          ///< recorded commands found more than there was room for; record again
 };
 
 /// The name of a code as in the enumeration, e.g. "invalid_shape".

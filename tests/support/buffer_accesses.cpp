@@ -140,6 +140,8 @@ void note_shaders(Recording& recording, VkPipeline pipeline, VkDescriptorSet set
 
 VkResult VKAPI_CALL begin(VkCommandBuffer commands, const VkCommandBufferBeginInfo* info) {
     state.recordings[commands] = {};
+    state.recordings[commands].is_submitted_again =
+        (info->flags & VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT) == 0;
     return driver<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(commands, info);
 }
 

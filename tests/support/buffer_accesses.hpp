@@ -45,6 +45,7 @@ struct RecordedBarrier {
 struct Recording {
     std::vector<std::variant<BufferAccess, RecordedBarrier>> commands;
     std::uint32_t next_command = 0;
+    bool is_submitted_again = false;  // or may be
     VkPipeline compute = VK_NULL_HANDLE;
     VkPipeline graphics = VK_NULL_HANDLE;
     VkDescriptorSet compute_set = VK_NULL_HANDLE;

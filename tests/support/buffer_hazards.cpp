@@ -141,9 +141,9 @@ std::vector<Event> reads_of_results(const Recording& recording) {
     return events;
 }
 
-void find_in(const Recording& recording, const Dependency* left_out,
-             std::vector<std::string>& hazards) {
-    std::vector<Event> events = reads_of_results(recording);
+/// Those of one execution, after the events before it. `number`: of the execution.
+void find_in(const Recording& recording, std::uint32_t number, const Dependency* left_out,
+             std::vector<Event>& events, std::vector<std::string>& hazards) {
     for (const auto& command : recording.commands) {
         if (const auto* const passed = std::get_if<RecordedBarrier>(&command)) {
             for (Event& event : events) {
@@ -151,7 +151,9 @@ void find_in(const Recording& recording, const Dependency* left_out,
             }
             continue;
         }
-        const BufferAccess& next = std::get<BufferAccess>(command);
+        BufferAccess next = std::get<BufferAccess>(command);
+        next.command += number * recording.next_command;
+        next.barriers_before += number * (std::size_t{1} << 32U);
         for (const Event& event : events) {
             if (next.range.overlaps(event.access.range) && (next.writes || event.access.writes) &&
                 !event.is_one_with(next) && !event.is_settled_for(next.stage, next.flags)) {
@@ -160,6 +162,15 @@ void find_in(const Recording& recording, const Dependency* left_out,
             }
         }
         events.push_back({next, false, 0, {}});
+    }
+}
+
+void find_in(const Recording& recording, const Dependency* left_out,
+             std::vector<std::string>& hazards) {
+    std::vector<Event> events = reads_of_results(recording);
+    find_in(recording, 0, left_out, events, hazards);
+    if (recording.is_submitted_again) {
+        find_in(recording, 1, left_out, events, hazards);
     }
     for (const Event& event : events) {
         for (const auto& [stage, flags] : readers_of(event.access.range.buffer)) {

@@ -20,7 +20,8 @@ struct Dependency {
 /// A line for each access that the recorded barriers do not order after an earlier one, or that
 /// need not see what it wrote; and for each result that does not reach the host or the host's
 /// shaders. Validation layers do not see such hazards between dispatches. Images are left to them.
-/// What the batch before did is not seen, except that the host's shaders have read the results.
+/// What the batch before did is not seen, except that the host's shaders have read the results; but
+/// commands that may be submitted again follow themselves.
 /// `left_out`: no barrier has this dependency, of whatever range; null: all have theirs.
 ///
 /// Dispatches of one pipeline with no barrier between them are taken for one: they write different
