@@ -145,13 +145,13 @@ Status BatchRing::already_complete(std::uint64_t host_frame) const {
             "Recording::frame is " + std::to_string(host_frame) + ", and frame " + last +
                 (complete_by_host_ ? " and all before it are complete: so the host said by "
                                      "Context::frame_completed()"
-                                   : " and all before it count as complete, since a batch was "
+                                   : " and all before it count as complete, since something was "
                                      "recorded for frame " +
                                          std::to_string(*complete_ + frames_.size()) +
                                          " and batches_in_flight is " + frames)};
 }
 
-Ticket BatchRing::record(const Batch& batch, const Recording& recording) {
+void BatchRing::begin_frame(const Recording& recording) {
     if (recording.commands == VK_NULL_HANDLE) {
         throw StatusException({StatusCode::invalid_submission, "Recording::commands is null"});
     }
@@ -162,6 +162,10 @@ Ticket BatchRing::record(const Batch& batch, const Recording& recording) {
         complete_ = recording.frame - frames_.size();
         complete_by_host_ = false;
     }
+}
+
+Ticket BatchRing::record(const Batch& batch, const Recording& recording) {
+    begin_frame(recording);
     return start_batch(batch, nullptr, [&](Frame& frame, const plan::FindShape& find_shape) {
         frame.host_frame = recording.frame;
         // Derived from the number that the ticket will have.

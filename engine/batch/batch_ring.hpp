@@ -24,12 +24,17 @@ public:
     /// Throws StatusException (ring_full) if the ring is full. After any StatusException nothing of
     /// the batch remains. `memory`, if given, is swapped for results that the batch does not need.
     Ticket submit(const Batch& batch, const Submission& order, Results* memory = nullptr);
-    /// The same, recorded into a command buffer of the host. Implies that the device has finished
-    /// all frames that are no longer in flight by then. May also throw StatusException
-    /// (invalid_submission).
+    /// The same, recorded into a command buffer of the host. Throws as begin_frame() too.
     Ticket record(const Batch& batch, const Recording& recording);
+    /// Precedes all that is recorded for the host, and implies that the device has finished all
+    /// frames that are no longer in flight by then. Throws StatusException (invalid_submission)
+    /// without a command buffer, or if this frame is complete already.
+    void begin_frame(const Recording& recording);
     /// Reports that the device has finished the host's frames up to this one.
     void complete(std::uint64_t host_frame);
+    [[nodiscard]] bool is_complete(std::uint64_t host_frame) const {
+        return complete_ && host_frame <= *complete_;
+    }
     /// Returns whether collect() would return without waiting for a submitted batch.
     [[nodiscard]] bool is_ready(Ticket ticket);
     /// Waits for one batch and writes its results. Throws StatusException: (unknown_ticket) if
@@ -102,9 +107,6 @@ private:
     [[nodiscard]] Resident in_slot(const Frame& frame, Resident resident) const {
         resident.slot.index = frame.index;
         return resident;
-    }
-    [[nodiscard]] bool is_complete(std::uint64_t host_frame) const {
-        return complete_ && host_frame <= *complete_;
     }
     [[nodiscard]] bool is_ready(Frame& frame) const;
     /// Calls `start(runner, find_shape)` to start a batch in a free frame.

@@ -84,6 +84,7 @@ DevicePairTableBase::State::State(const AnyQuery& query, double reach)
 
 DevicePairTableBase::State::~State() {
     if (context_ != nullptr) {
+        report_open_frame();
         set_submitted(false);
         context_->shapes().release(held_);
     }

@@ -42,9 +42,11 @@ struct DevicePairTableBase::State {
     void update(Context::Implementation& with, const Source& source);
     void submit(Context::Implementation& with, const Source& source);
     void collect();
-    [[nodiscard]] bool is_ready() const {
-        return is_submitted_ && (buffers_ == nullptr || buffers_->is_done());
-    }
+    /// In place of submit(): records what the host submits, for as many times as collect().
+    void record(Context::Implementation& with, const Source& source, const Recording& recording);
+    /// Whether what was recorded is about the source as it is, and has room.
+    [[nodiscard]] bool is_recorded(const Context::Implementation& with, const Source& source) const;
+    [[nodiscard]] bool is_ready() const;
     void row(std::uint32_t index, PairRow<PenetrationQuery>& row);
     void row(std::uint32_t index, PairRow<ContactQuery>& row);
     void row(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
@@ -91,8 +93,12 @@ private:
     template <class Action>
     void run_or_start_anew(Context::Implementation& context, const Action& action);
     void require_collected(const char* call) const;
-    /// Lets the device begin. `call`: for messages.
-    void start(const char* call, Context::Implementation& with, const Source& source);
+    void require_complete_frame(const char* call) const;
+    void report_open_frame() const noexcept;
+    /// Lets the device begin, or records what it does into commands of the host. `call`: for
+    /// messages.
+    void start(const char* call, Context::Implementation& with, const Source& source,
+               VkCommandBuffer commands = VK_NULL_HANDLE);
     void set_poses(const DevicePoses* poses);
     /// Says where the device finds the host's poses. `call`: for messages.
     void find_poses(const char* call);
@@ -103,6 +109,7 @@ private:
     /// What the device has lost where it took the pose of an instance.
     [[nodiscard]] double rounding_of(const PairInstance& entry) const;
     void finish();
+    void collect_recorded();
     void check(const char* call) const;
     void list_instances(const char* call, const world::Instances& instances);
     void place(const world::Instances& instances, std::span<const std::uint32_t> numbers);
@@ -180,11 +187,14 @@ private:
     ContactResult contacts_;
     cpu::IntersectionTest intersection_test_;
     simd::TransformedInstances edges_;
+    std::uint64_t filters_ = 0;           // of the world, at the last update
+    std::optional<std::uint64_t> frame_;  // of the host, that it was recorded for
     std::uint32_t renderer_ = 0;          // number of that of the last update
     std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
     std::uint32_t elements_ = 0;          // of the host's poses: all indices are below it
     bool are_poses_taken_ = false;        // by the device, of the present instances
-    bool is_submitted_ = false;           // and not collected
+    bool is_submitted_ = false;           // or recorded, and not collected
+    bool lacks_room_ = false;             // what was recorded
 };
 
 }  // namespace nearfield

@@ -70,6 +70,7 @@ void DevicePairTableBase::State::set_submitted(bool is_submitted) {
 void DevicePairTableBase::State::start_anew() {
     rows = 0;
     set_submitted(false);
+    frame_.reset();
     decided_.clear();
     device_rows_.clear();
     instances_.clear();
@@ -147,8 +148,11 @@ void DevicePairTableBase::State::decide() {
 }
 
 void DevicePairTableBase::State::start(const char* call, Context::Implementation& with,
-                                       const Source& source) {
+                                       const Source& source, VkCommandBuffer commands) {
     const Stopwatch total;
+    set_submitted(false);
+    frame_.reset();
+    lacks_room_ = false;
     const world::Instances& instances = source.instances;
     if (context_ != &with || world_.lock() != source.identity) {
         start_anew();
@@ -185,6 +189,7 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
         membership_ = instances.membership();
         shapes_revision_ = context_->shapes().revision();
     }
+    filters_ = instances.filters();
     find_poses(call);
     const passes::ExportPairs* const exports =
         question_.resident ? &renderer.export_pairs() : nullptr;
@@ -196,8 +201,12 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
         }
         timings.plan = total.milliseconds() - pipelines;
         renderer.note_pairs(question_.goal, poses_.has_value(), question_.resident);
-        buffers_->begin(renderer.pair_search(question_.goal), shapes_, context_->memory_limit(),
-                        timings);
+        const passes::PairSearch& search = renderer.pair_search(question_.goal);
+        if (commands == VK_NULL_HANDLE) {
+            buffers_->begin(search, shapes_, context_->memory_limit(), timings);
+        } else {
+            buffers_->record(commands, search, shapes_, context_->memory_limit(), timings);
+        }
     }
     set_submitted(true);
     timings.total = total.milliseconds() - pipelines;
@@ -206,7 +215,11 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
 void DevicePairTableBase::State::finish() {
     const Stopwatch total;
     if (instances_.size() > 1) {
-        buffers_->finish(timings);
+        if (frame_) {
+            buffers_->collect(timings);
+        } else {
+            buffers_->finish(timings);
+        }
         require_usable_poses();
         rows = buffers_->counts()[plan::row_total];
         decide();
@@ -226,7 +239,9 @@ void DevicePairTableBase::State::run_or_start_anew(Context::Implementation& cont
 }
 
 void DevicePairTableBase::State::require_collected(const char* call) const {
-    if (is_submitted_) {
+    if (frame_) {
+        require_complete_frame(call);
+    } else if (is_submitted_) {
         throw StatusException(
             {StatusCode::not_ready,
              std::string(call) + ": the table was submitted, and has not been collected since"});
@@ -247,6 +262,11 @@ void DevicePairTableBase::State::submit(Context::Implementation& with, const Sou
 }
 
 void DevicePairTableBase::State::collect() {
+    if (frame_) {
+        require_complete_frame("collect");
+        collect_recorded();
+        return;
+    }
     if (!is_submitted_) {
         throw StatusException({StatusCode::not_ready, "collect: the table was not submitted"});
     }
@@ -279,10 +299,6 @@ Status World::submit(DevicePairTableBase& table, const DevicePoses& poses, const
 
 Status DevicePairTableBase::collect(const Limits& limits) {
     return catch_within(limits, [&] { state_->collect(); });
-}
-
-bool DevicePairTableBase::is_ready() const noexcept {
-    return state_->is_ready();
 }
 
 }  // namespace nearfield

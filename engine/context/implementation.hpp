@@ -59,6 +59,10 @@ public:
     Expected<Ticket> submit(const Batch& batch, const Submission& submission, Results* memory);
     Expected<Ticket> record(const Batch& batch, const Recording& recording);
     void frame_completed(std::uint64_t frame) { machinery_->ring.complete(frame); }
+    /// Whether what was recorded for the host's frame need not be waited for.
+    [[nodiscard]] bool is_complete(std::uint64_t frame) const {
+        return lost_ || machinery_->ring.is_complete(frame);
+    }
     bool is_ready(Ticket ticket) { return lost_ || machinery_->ring.is_ready(ticket); }
     Status collect(Ticket ticket, Results& results);
 
@@ -84,6 +88,7 @@ public:
     [[nodiscard]] batch::BatchRing& ring() { return machinery_->ring; }
 
     [[nodiscard]] batch::ShapeStore& shapes() { return shapes_; }
+    [[nodiscard]] const batch::ShapeStore& shapes() const { return shapes_; }
     /// Rings of the caller's numbers, until the next call.
     [[nodiscard]] std::span<const Ring> gather(std::span<const RingView> rings) {
         return gathered_rings_.gather(rings);
@@ -94,7 +99,7 @@ public:
     [[nodiscard]] const JobSystem& jobs() const { return settings_.jobs; }
     [[nodiscard]] const DeviceTechniques& techniques() const { return settings_.techniques; }
     [[nodiscard]] std::uint64_t memory_limit() const { return settings_.memory_limit; }
-    /// Tables of pairs that were submitted and not collected; they use the renderer.
+    /// Tables of pairs that were submitted or recorded and not collected; they use the renderer.
     std::uint32_t tables_in_flight = 0;
     [[nodiscard]] const render::Renderer* renderer() const { return machinery_->renderer.get(); }
     [[nodiscard]] render::Renderer* renderer() { return machinery_->renderer.get(); }

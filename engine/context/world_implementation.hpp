@@ -63,6 +63,8 @@ public:
     /// `poses`: of the host; null: the world's.
     void update(DevicePairTableBase& table, const DevicePoses* poses);
     void submit(DevicePairTableBase& table, const DevicePoses* poses);
+    void record(DevicePairTableBase& table, const DevicePoses* poses, const Recording& recording);
+    [[nodiscard]] bool is_recorded(const DevicePairTableBase& table) const;
 
     [[nodiscard]] std::uint64_t bytes() const;
     void trim();

@@ -79,6 +79,7 @@ void Instances::move(std::uint32_t index, const Pose& pose) {
 void Instances::set_filter(std::uint32_t index, std::uint32_t category, std::uint32_t mask) {
     note_change(index);
     ++entries_[index].moves;
+    ++filters_;
     entries_[index].instance.category = category;
     entries_[index].instance.mask = mask;
 }

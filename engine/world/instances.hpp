@@ -54,6 +54,8 @@ public:
     [[nodiscard]] bool is_present(std::uint32_t index) const { return entries_[index].present; }
     /// Changes whenever instances are added or removed.
     [[nodiscard]] std::uint64_t membership() const { return membership_; }
+    /// Changes whenever the filter of an instance does.
+    [[nodiscard]] std::uint64_t filters() const { return filters_; }
     /// Changes with the pose and the filter of an instance, before prepare() too.
     [[nodiscard]] std::uint64_t moves(std::uint32_t index) const { return entries_[index].moves; }
 
@@ -155,6 +157,7 @@ private:
     std::uint32_t count_ = 0;
     std::uint64_t next_number_ = 0;
     std::uint64_t membership_ = 1;
+    std::uint64_t filters_ = 0;
     std::uint64_t last_change_ = 0;
     std::uint64_t shapes_revision_ = 0;
     double max_rounding_ = 0.0;

@@ -72,8 +72,8 @@ struct Settings {
     alignas(std::uint64_t) bool timestamps = false;  // begins a word: see read_versioned()
     /// False: the context makes all pipelines when it is created, and no later call makes any.
     /// True: the first call that needs a pipeline makes it, and takes longer: run(), submit(),
-    /// record(), collect(), resident_layout(), World::update() or World::submit(). For a program
-    /// that asks few questions and should start quickly.
+    /// record(), collect(), resident_layout(), World::update(), World::submit() or World::record().
+    /// For a program that asks few questions and should start quickly.
     alignas(std::uint64_t) bool pipelines_on_demand = false;  // likewise
 };
 
@@ -262,8 +262,8 @@ public:
                                           const Limits& limits = {});
 
     /// States that the device has finished all of the host's frames up to `frame`, or will never
-    /// execute them. Batches recorded for these frames can be collected; those whose commands were
-    /// not executed return not_executed. A smaller number than before has no effect.
+    /// execute them. Batches and tables recorded for these frames can be collected; those whose
+    /// commands were not executed return not_executed. A smaller number than before has no effect.
     void frame_completed(std::uint64_t frame) noexcept;
 
     /// True if collect() would not wait for a submitted batch, or if the frame of a recorded batch

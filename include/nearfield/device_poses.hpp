@@ -13,9 +13,9 @@
 namespace nearfield {
 
 /// The poses of a world's instances in a buffer of the host's, on the context's device:
-/// World::submit() and World::update() of a DevicePairTable. The host writes them by commands
-/// submitted earlier to the same queue, for example by its own simulation; the CPU does not see
-/// them before the table is collected.
+/// World::submit(), World::update() and World::record() of a DevicePairTable. The host writes them
+/// by commands submitted earlier to the same queue, for example by its own simulation; the CPU does
+/// not see them before the table is collected.
 ///
 /// The pose of an instance is the element with the index of its handle (InstanceHandle::index):
 /// four floats, which are x and y of its position, and cosine and sine of its angle. The angle is
@@ -23,9 +23,9 @@ namespace nearfield {
 ///
 /// Borrowed: the buffer must exist until the table is brought up to date with other poses, or is
 /// destroyed: commands are kept for the next submission, and a new buffer may have the handle of
-/// one that is gone. What it holds is read once, by the commands of World::submit(). Commands that
-/// overwrite it after these, on the same queue, need a barrier that waits for the compute shader
-/// stage, and no access.
+/// one that is gone. What it holds is read once, by the commands of World::submit(), or by each
+/// execution of those of World::record(). Commands that overwrite it after these, on the same
+/// queue, need a barrier that waits for the compute shader stage, and no access.
 struct DevicePoses {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< not null
     VkDeviceSize offset = 0;           ///< of element 0; see minStorageBufferOffsetAlignment

@@ -58,10 +58,10 @@ enum class GraphFormat {
 };
 
 /// The render graphs of the last batch submitted or recorded, each with a title, or that of a
-/// DevicePairTable updated since: passes, resources, lifetimes, barriers; those of a host's targets
-/// as by default, not as stated. Empty before the first of them and in a context without a device.
-/// Batches that the CPU answers alone do not count. Fails with invalid_settings if `format` is not
-/// a valid enumerator, or with out_of_memory.
+/// DevicePairTable updated or recorded since: passes, resources, lifetimes, barriers; those of a
+/// host's targets as by default, not as stated. Empty before the first of them and in a context
+/// without a device. Batches that the CPU answers alone do not count. Fails with invalid_settings
+/// if `format` is not a valid enumerator, or with out_of_memory.
 [[nodiscard]] NEARFIELD_EXPORT Expected<std::string> describe_graph(const Context& context,
                                                                     GraphFormat format);
 
@@ -77,15 +77,17 @@ enum class GraphFormat {
 /// them and rebuilds the pipelines of those whose code differs from the code in use; later batches
 /// use the new pipelines. Returns the number of shaders replaced; 0: nothing changed. Waits for the
 /// compiler that the library was built with, run as a separate process; the first call compiles all
-/// shaders, which takes seconds. Does not wait for the device.
+/// shaders, which takes seconds. Does not wait for the device. Commands that World::record() has
+/// recorded must not be submitted afterwards.
 ///
 /// `folder`: the folder of the sources; null: the folder that the library was built from.
 ///
 /// Fails with unavailable if the library was built without the CMake option
 /// NEARFIELD_SHADER_RELOAD, as release builds are; with no_device in a context without one; with
-/// not_ready while batches are in flight; with invalid_shader if a source cannot be read or
-/// compiled (the compiler's messages are the reasons and go to the log); as Context::create() does
-/// if the device rejects a pipeline. The shaders in use then stay in use.
+/// not_ready while batches are in flight, or a DevicePairTable is not collected; with
+/// invalid_shader if a source cannot be read or compiled (the compiler's messages are the reasons
+/// and go to the log); as Context::create() does if the device rejects a pipeline. The shaders in
+/// use then stay in use.
 [[nodiscard]] NEARFIELD_EXPORT Expected<std::uint32_t> reload_shaders(Context& context,
                                                                       const char* folder = nullptr);
 

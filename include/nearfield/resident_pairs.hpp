@@ -22,7 +22,7 @@ struct ResidentArray {
     std::uint32_t capacity = 0;        ///< maximum number of elements
     /// How many there are. `overflow` is 1 if there was not enough room for the pairs, whose rows
     /// and records are then not all there; DevicePairTable::collect() makes room and searches
-    /// again.
+    /// again, or, where the commands were recorded for the host, the next World::record() does.
     ResidentHeader header;
 };
 
@@ -32,8 +32,10 @@ struct ResidentArray {
 /// (resident_pair_flags), and it is for the host's shaders to count them or not.
 ///
 /// Commands that the host submits to the same queue after World::submit() see them, as those of a
-/// batch (resident.hpp). All handles hold until the table is submitted, updated or collected again,
-/// by when the device must be done with these commands; frames in flight have two tables, in turns.
+/// batch (resident.hpp), and so do those that follow what World::record() has recorded. All handles
+/// hold until the table is submitted, updated or recorded again, or collected after
+/// World::submit(), by when the device must be done with these commands; frames in flight have two
+/// tables, in turns.
 ///
 /// Error of all positions and distances of a pair: at most 2^-17 of the sum of both shapes' radii
 /// around their centres, the distance of these centres, and that of the pair from the origin, where

@@ -9,7 +9,7 @@
 
 /// \file
 /// What a host gives with each batch: semaphores for a submission, or the command buffer to record
-/// into. For `structure_size` see host.hpp.
+/// into. Tables of pairs are recorded likewise. For `structure_size` see host.hpp.
 
 namespace nearfield {
 
@@ -39,7 +39,7 @@ struct Submission {
     std::span<const SemaphoreSignal> signals = {};      ///< after the device has finished the batch
 };
 
-/// The command buffer that Context::record() records a batch into.
+/// The command buffer that Context::record() records a batch into, or World::record() a table.
 struct Recording {
     std::uint32_t structure_size = sizeof(Recording);  ///< leave unchanged
     /// A command buffer of HostDevice::queue_family in the recording state, outside a render pass,

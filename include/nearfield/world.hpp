@@ -373,6 +373,17 @@ public:
     Status update(DevicePairTableBase& table, const DevicePoses& poses, const Limits& limits = {});
     /// Likewise.
     Status submit(DevicePairTableBase& table, const DevicePoses& poses, const Limits& limits = {});
+    /// Records what submit() submits into a command buffer of the host, which may submit it again
+    /// and again: see DevicePairTable. Submits nothing and waits for nothing. Fails as submit()
+    /// and, with invalid_submission, as Context::record(); nothing has been recorded then.
+    Status record(DevicePairTableBase& table, const Recording& recording,
+                  const Limits& limits = {});
+    /// Likewise.
+    Status record(DevicePairTableBase& table, const DevicePoses& poses, const Recording& recording,
+                  const Limits& limits = {});
+    /// False if a table has to be recorded (again): collect() found no room, or instances, filters
+    /// or any shape of the context have changed since. Poses are not compared.
+    [[nodiscard]] bool is_recorded(const DevicePairTableBase& table) const noexcept;
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

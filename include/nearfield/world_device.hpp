@@ -37,14 +37,21 @@ public:
     /// it, and fills the rows. Submits again, and waits, where there was no room for all pairs; the
     /// memory has grown then. Fails with not_ready if nothing was submitted; otherwise as
     /// World::update().
+    ///
+    /// After World::record(), neither submits nor waits, and may be called again (DevicePairTable).
+    /// Fails with not_ready if the frame is not complete, with not_executed if the device has not
+    /// executed the commands, and with overflow if there was no room for all pairs; the reasons
+    /// then say of what there were more. The table has no rows after an error, and what was
+    /// recorded stays as it is.
     Status collect(const Limits& limits = {});
-    /// True if the device has finished what World::submit() began; never waits. Also true once it
-    /// is lost. False if nothing was submitted.
+    /// True if the device has finished what World::submit() began, or if the frame of
+    /// World::record() is complete; never waits. Also true once the device is lost. False if
+    /// nothing was submitted or recorded.
     [[nodiscard]] bool is_ready() const noexcept;
 
     /// What the device leaves for the host's shaders, if the query is resident; see ResidentPairs
     /// for how long. Fails with invalid_query if it is not, with not_ready if nothing was submitted
-    /// or the world has fewer than two instances.
+    /// or recorded, or the world has fewer than two instances.
     [[nodiscard]] Expected<ResidentPairs> resident() const;
 
 protected:
@@ -125,12 +132,39 @@ concept HasDistance = requires(const typename Query::Result& result) {
 /// Poses are the world's, or those that the host's commands write on the device (DevicePoses): rows
 /// are exact at these too.
 ///
+/// A host that submits for itself calls World::record(), submits its command buffer, and calls
+/// collect() once it has said that the frame is complete (Context::frame_completed()):
+/// - Synchronisation is as with Context::record(): the same queue, and no barrier of the host's
+///   before or after, but for its poses (DevicePoses). What changes in the command buffer, primary
+///   or secondary, is the compute pipeline, its descriptor set 0 and its push constants. With fewer
+///   than two instances nothing is recorded.
+/// - The same commands may be submitted any number of times, if their command buffer was begun so;
+///   the library does no work in between. Each execution finds the pairs of the instances, shapes
+///   and filters that were recorded at the poses that are then in the buffer of DevicePoses, and
+///   leaves resident results. It waits for what the execution before, and the host's shaders after
+///   that (ResidentState), have read. A pose that is none is taken for (0, 0), not turned.
+/// - collect() fills the rows from the last execution, each time it is called. The device must not
+///   execute the commands during this call, nor while rows are read.
+/// - Where memory is too small, nothing searches again: the headers of resident results say so
+///   (`overflow`), and collect() fails. The next call of World::record() makes room for what was
+///   found, collected or not; later steps of the search have not seen what earlier ones had no room
+///   for, so that up to five calls can be needed. World::update() makes room for all at once, and
+///   orders the instances by the poses on the device, which makes later searches faster.
+/// - What was recorded, with all handles of resident results, holds until the table is recorded,
+///   submitted or updated again, successfully or not, unless that fails with not_ready or
+///   invalid_submission; until the table is destroyed or assigned to; and until reload_shaders().
+///   By then the device must be done with it. Whatever happens to the world, its shapes or
+///   Context::trim() changes nothing about it: World::is_recorded() tells whether it is still about
+///   the world as it is.
+/// - Until the frame that it was recorded for is complete, the table cannot be recorded, submitted
+///   or updated again (not_ready). Later submissions of the commands are not known to the library.
+///
 /// Used with one world at a time; a table that comes to another world starts anew. It keeps its
 /// memory, on the device too, from update to update, and holds the world's shapes as they were at
 /// the last update.
 ///
 /// Threads: as for the world. Lifetime: the world's context must outlive the table. A table
-/// that is destroyed before it is collected waits for the device.
+/// that is destroyed before it is collected waits for the device, but not for what was recorded.
 template <class Query>
 class DevicePairTable : public DevicePairTableBase {
 public:

@@ -1,9 +1,6 @@
-#include <tests/query/device_pairs.hpp>
+#include <tests/query/device_poses.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -12,95 +9,11 @@
 namespace nearfield::test {
 namespace {
 
-using test_support::HostGpu;
-
 constexpr std::uint64_t seed = 27000;
 
-/// x, y, cosine and sine.
-using HostPose = std::array<float, 4>;
-
 /// Tables of pairs at poses that commands of the host write.
-class DevicePairPoses : public DevicePairsOfHostTest {
+class DevicePairPoses : public DevicePosesTest {
 protected:
-    /// A buffer with room for poses, and another one from which they are copied to it.
-    class Buffer {
-    public:
-        Buffer(HostGpu& gpu, std::size_t elements, std::uint32_t stride, VkDeviceSize offset)
-            : gpu_(&gpu) {
-            poses_.offset = offset;
-            poses_.size = stride * elements;
-            poses_.stride = stride;
-            poses_.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-            poses_.before = {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT};
-            poses_.buffer = gpu.make_buffer(bytes(), poses_.usage).buffer;
-            source_ = gpu.make_buffer(bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-        }
-
-        [[nodiscard]] DevicePoses& poses() { return poses_; }
-        /// Has the device write them, once it is done with the reading of earlier ones.
-        void write(const std::vector<HostPose>& poses) {
-            auto* const data = const_cast<std::byte*>(source_.data);  // it is mapped
-            for (std::size_t i = 0; i < poses.size(); ++i) {
-                std::memcpy(data + poses_.offset + i * poses_.stride, poses[i].data(),
-                            sizeof(HostPose));
-            }
-            gpu_->submit([this](VkCommandBuffer commands) {
-                gpu_->vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                           VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
-                                           nullptr, 0, nullptr);
-                const VkBufferCopy all{0, 0, bytes()};
-                gpu_->vkCmdCopyBuffer(commands, source_.buffer, poses_.buffer, 1, &all);
-            });
-        }
-
-    private:
-        [[nodiscard]] VkDeviceSize bytes() const { return poses_.offset + poses_.size; }
-
-        HostGpu* gpu_;
-        DevicePoses poses_;
-        HostGpu::Buffer source_;
-    };
-    [[nodiscard]] Buffer make_buffer(std::uint32_t stride = 16, VkDeviceSize offset = 0) {
-        return {gpu(), added_.size(), stride, offset};
-    }
-
-    /// Instances of all kinds of shapes.
-    void add_some(Random& random, int of_each) {
-        for (const Rings& rings : some_shapes(random)) {
-            const ShapeHandle shape = add_shape(rings);
-            for (int i = 0; i < of_each; ++i) {
-                added_.push_back(add(shape, {}));
-            }
-        }
-    }
-    /// `x`: of their centres, in their own frame.
-    void add_squares(int count, double x = 0.0) {
-        const ShapeHandle square = add_shape(rectangle({x - 1.0, -1.0}, {x + 1.0, 1.0}));
-        for (int i = 0; i < count; ++i) {
-            added_.push_back(add(square, {}));
-        }
-    }
-    /// Shapes far from their origin come near the others too.
-    [[nodiscard]] HostPose any_host_pose(Random& random, const Vector2& centre) {
-        const double angle = random.between(-4.0, 4.0);
-        const double length = random.between(0.9925, 1.0075);
-        const double cosine = std::cos(angle);
-        const double sine = std::sin(angle);
-        const double x = random.between(-3.0, 3.0) - cosine * centre.x + sine * centre.y;
-        const double y = random.between(-3.0, 3.0) - sine * centre.x - cosine * centre.y;
-        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(length * cosine),
-                static_cast<float>(length * sine)};
-    }
-    /// Of all instances, by the index of their handles.
-    [[nodiscard]] std::vector<HostPose> any_poses(Random& random) {
-        std::vector<HostPose> poses(added_.size());
-        for (std::size_t i = 0; i < added_.size(); ++i) {
-            const bool is_far = i / 2 == 11;  // see some_shapes()
-            poses[added_[i].index] =
-                any_host_pose(random, is_far ? Vector2{100.0, -50.0} : Vector2{});
-        }
-        return poses;
-    }
     /// The same poses, as the world has them.
     void move_to(const std::vector<HostPose>& poses, const Vector2& origin) {
         for (const InstanceHandle handle : added_) {
@@ -121,7 +34,7 @@ protected:
 
     /// Rows at the host's poses are those of the CPU at the same poses of the world.
     template <class Query>
-    void compare(DevicePairTable<Query>& table, PairTable<Query>& cpu, Buffer& buffer,
+    void compare(DevicePairTable<Query>& table, PairTable<Query>& cpu, PoseBuffer& buffer,
                  const std::vector<HostPose>& poses) {
         ASSERT_NO_FATAL_FAILURE(move_to(poses, buffer.poses().origin));
         ASSERT_TRUE(world().update(cpu).ok());
@@ -168,7 +81,6 @@ protected:
         }
     }
 
-    std::vector<InstanceHandle> added_;
     std::uint32_t rows_ = 0;  // that were compared
 };
 
@@ -178,10 +90,10 @@ TEST_F(DevicePairPoses, GiveTheRowsOfTheSamePosesOfTheWorld) {
     const auto compare_all = [&]<class Query>(const Query& query, const auto&... reach) {
         DevicePairTable<Query> table(query, reach...);
         PairTable<Query> cpu(query, {.reach = (0.0 + ... + reach), .hits_only = true});
-        std::vector<Buffer> buffers{make_buffer(), make_buffer(28, 256)};
+        std::vector<PoseBuffer> buffers{make_buffer(), make_buffer(28, 256)};
         buffers[1].poses().origin = {3e4, -1e4};
         for_each_case(seed, 4, [&](Random& random) {
-            for (Buffer& buffer : buffers) {
+            for (PoseBuffer& buffer : buffers) {
                 ASSERT_NO_FATAL_FAILURE(compare(table, cpu, buffer, any_poses(random)));
             }
         });
@@ -205,7 +117,7 @@ TEST_F(DevicePairPoses, TellWhatTouchesFromWhatDoesNot) {
         add_squares(60, centre);
         DevicePairTable table(IntersectionTestQuery{});
         PairTable cpu(IntersectionTestQuery{}, {.hits_only = true});
-        Buffer buffer = make_buffer();
+        PoseBuffer buffer = make_buffer();
         rows_ = 0;
         for_each_case(seed, 12, [&](Random& random) {
             std::vector<HostPose> poses(60);
@@ -239,7 +151,7 @@ TEST_F(DevicePairPoses, TooFarAwayAreRefusedPairByPair) {
     DevicePairTable<PenetrationQuery> table(
         {.tolerance = 1e-4, .points = PenetrationPoints::vertices});
     PairTable<PenetrationQuery> cpu(table.query(), {.hits_only = true});
-    Buffer buffer = make_buffer();
+    PoseBuffer buffer = make_buffer();
     const std::vector<HostPose> poses(6, {0.5F, 0.0F, 0.8F, 0.6F});
     for (const double x : {1e7, 1.2e9}) {
         buffer.poses().origin = {x, 0.0};
@@ -260,7 +172,7 @@ TEST_F(DevicePairPoses, AreReadOnce) {
         together.push_back({0.01F * place, 0.005F * place, 0.8F, 0.6F});
         apart.push_back({10.0F * place, 0.0F, 1.0F, 0.0F});
     }
-    Buffer buffer = make_buffer();
+    PoseBuffer buffer = make_buffer();
     DevicePairTable table(PenetrationQuery{.tolerance = 0.05});
     buffer.write(together);
     ASSERT_TRUE(world().submit(table, buffer.poses()).ok());
@@ -272,7 +184,7 @@ TEST_F(DevicePairPoses, AreReadOnce) {
     EXPECT_EQ(table.candidates(), 120U * 119U);
     EXPECT_EQ(table.size(), 120U * 119U);
     EXPECT_NEAR(table.row(0)->deepest.depth, 0.011, 1e-6);  // turned by 0.8, 0.6
-    Buffer other = make_buffer();
+    PoseBuffer other = make_buffer();
     for (const bool is_apart : {false, true}) {
         other.write(is_apart ? apart : together);
         gpu().finish();
@@ -290,7 +202,7 @@ TEST_F(DevicePairPoses, AreNotKept) {
     const std::vector<HostPose> poses{
         {0.0F, 0.0F, 1.0F, 0.0F}, {1.5F, 0.0F, 1.0F, 0.0F}, {9.0F, 0.0F, 1.0F, 0.0F}, {}, {}};
     ASSERT_NO_FATAL_FAILURE(scatter());
-    Buffer buffer(gpu(), 5, 16, 0);
+    PoseBuffer buffer(gpu(), 5, 16, 0);
     buffer.write(poses);
     ASSERT_TRUE(world().update(table, buffer.poses()).ok());
     gpu().finish();
@@ -327,7 +239,7 @@ TEST_F(DevicePairPoses, ThatAreNoneAreNamed) {
     constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
     add_squares(100);
     const std::vector<HostPose> usable(100, {1.0F, 2.0F, -0.6F, 0.8F});
-    Buffer buffer = make_buffer();
+    PoseBuffer buffer = make_buffer();
     DevicePairTable table(IntersectionTestQuery{});
     buffer.poses().origin = {1e11, 0.0};
     for (const HostPose& bad :
@@ -355,7 +267,7 @@ TEST_F(DevicePairPoses, ThatAreNoneAreNamed) {
 
 TEST_F(DevicePairPoses, OfBadBuffersAreRefused) {
     add_squares(3);
-    Buffer buffer(gpu(), 3, 20, 0);
+    PoseBuffer buffer(gpu(), 3, 20, 0);
     buffer.write({{0.0F, 0.0F, 1.0F, 0.0F}, {5.0F, 0.0F, 1.0F, 0.0F}, {0.5F, 0.0F, 1.0F, 0.0F}});
     gpu().finish();
     DevicePairTable table(IntersectionTestQuery{});

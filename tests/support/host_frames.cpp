@@ -84,6 +84,65 @@ void HostFrames::wait(std::uint64_t frame) {
                     "vkWaitForFences");
 }
 
+KeptCommands::KeptCommands(const HostDevice& host) : host_(host) {
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.queueFamilyIndex = host.queue_family;
+    require_success(NEARFIELD_HOST_CALL(vkCreateCommandPool)(host_.device, &pool, nullptr, &pool_),
+                    "vkCreateCommandPool");
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    require_success(NEARFIELD_HOST_CALL(vkCreateFence)(host_.device, &fence, nullptr, &fence_),
+                    "vkCreateFence");
+}
+
+KeptCommands::~KeptCommands() {
+    NEARFIELD_HOST_CALL(vkDestroyFence)(host_.device, fence_, nullptr);
+    NEARFIELD_HOST_CALL(vkDestroyCommandPool)(host_.device, pool_, nullptr);
+}
+
+VkCommandBuffer KeptCommands::begin(VkCommandBufferLevel level) const {
+    VkCommandBufferAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocation.commandPool = pool_;
+    allocation.level = level;
+    allocation.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    require_success(
+        NEARFIELD_HOST_CALL(vkAllocateCommandBuffers)(host_.device, &allocation, &commands),
+        "vkAllocateCommandBuffers");
+    VkCommandBufferInheritanceInfo outside{};
+    outside.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO;
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT;
+    info.pInheritanceInfo = &outside;
+    require_success(NEARFIELD_HOST_CALL(vkBeginCommandBuffer)(commands, &info),
+                    "vkBeginCommandBuffer");
+    return commands;
+}
+
+void KeptCommands::end(VkCommandBuffer commands) const {
+    require_success(NEARFIELD_HOST_CALL(vkEndCommandBuffer)(commands), "vkEndCommandBuffer");
+}
+
+void KeptCommands::execute(VkCommandBuffer primary, VkCommandBuffer secondary) const {
+    NEARFIELD_HOST_CALL(vkCmdExecuteCommands)(primary, 1, &secondary);
+}
+
+void KeptCommands::run(std::span<const VkCommandBuffer> commands) const {
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = static_cast<std::uint32_t>(commands.size());
+    info.pCommandBuffers = commands.data();
+    require_success(NEARFIELD_HOST_CALL(vkQueueSubmit)(host_.queue, 1, &info, fence_),
+                    "vkQueueSubmit");
+    require_success(
+        NEARFIELD_HOST_CALL(vkWaitForFences)(host_.device, 1, &fence_, VK_TRUE, UINT64_MAX),
+        "vkWaitForFences");
+    require_success(NEARFIELD_HOST_CALL(vkResetFences)(host_.device, 1, &fence_), "vkResetFences");
+}
+
 SecondaryCommands::SecondaryCommands(const HostDevice& host) : host_(host) {
     VkCommandPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;

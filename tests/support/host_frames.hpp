@@ -3,6 +3,7 @@
 #include <nearfield/host.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nearfield::test_support {
@@ -41,6 +42,28 @@ private:
     HostDevice host_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::vector<Frame> frames_;
+};
+
+/// Command buffers of a host that it submits as often as it likes. Throws as HostFrames does.
+class KeptCommands {
+public:
+    explicit KeptCommands(const HostDevice& host);
+    ~KeptCommands();
+    KeptCommands(const KeptCommands&) = delete;
+    KeptCommands& operator=(const KeptCommands&) = delete;
+
+    /// A new one, which begins recording. Secondary ones are outside a render pass.
+    [[nodiscard]] VkCommandBuffer begin(
+        VkCommandBufferLevel level = VK_COMMAND_BUFFER_LEVEL_PRIMARY) const;
+    void end(VkCommandBuffer commands) const;
+    void execute(VkCommandBuffer primary, VkCommandBuffer secondary) const;
+    /// Submits these, the same one any number of times, in one call, and waits for them.
+    void run(std::span<const VkCommandBuffer> commands) const;
+
+private:
+    HostDevice host_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
 };
 
 /// A secondary command buffer of a host, outside a render pass. Throws as HostFrames does.

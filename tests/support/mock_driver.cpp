@@ -155,6 +155,7 @@ void MockDriver::let_shaders_find(const Finding& finding) {
 
 VkCommandBuffer MockDriver::begin_commands() {
     const UnwatchedAllocations here;
+    state_->allocator = nullptr;  // that was the last call's
     const auto commands = state_->make<VkCommandBuffer>(the_host, state_->device);
     state_->objects[number(commands)].commands = MockObject::Commands::recording;
     return commands;

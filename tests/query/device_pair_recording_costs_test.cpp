@@ -1,0 +1,121 @@
+#include <tests/query/device_poses.hpp>
+#include <tests/support/allocations.hpp>
+#include <tests/support/fake_loader.hpp>
+#include <tests/support/host_frames.hpp>
+#include <tests/support/watched_loader.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+struct Counts {
+    std::uint64_t allocations_below = 0;  ///< those of the driver
+    int objects = 0;                      ///< made or destroyed
+    int waits = 0;
+    int submissions = 0;
+};
+Counts counted;  // entry points have no user data
+
+void count_call(const test_support::WatchedCall& call) {
+    counted.allocations_below += call.allocations;
+    counted.objects += call.makes() || call.destroys() ? 1 : 0;
+    counted.waits += call.name.starts_with("vkWait") ? 1 : 0;
+    counted.submissions += call.name == "vkQueueSubmit" ? 1 : 0;
+}
+
+/// What it costs to record a table of pairs frame by frame.
+class DevicePairRecordingCosts : public DevicePosesTest {
+protected:
+    void SetUp() override {
+        DevicePosesTest::SetUp();
+        loader_.emplace(host_device(), test_support::watched(host_device(), count_call));
+        Settings settings;
+        settings.pipelines_on_demand = true;
+        Expected<Context> made = Context::create(loader_->host(), settings);
+        ASSERT_TRUE(made.has_value()) << made.error().text();
+        watched_.emplace(std::move(*made));
+        world_.emplace(std::move(*World::create(*watched_)));
+        Random random(30000);
+        const ShapeHandle shape = *watched_->add_shape(coast(random, 100, 0.5));
+        for (int i = 0; i < 20; ++i) {
+            added_.push_back(*world_->add({.shape = shape, .pose = {{0.4 * i, 0.0}, 0.3 * i}}));
+        }
+    }
+    void TearDown() override {
+        world_.reset();
+        watched_.reset();
+        loader_.reset();
+        DevicePosesTest::TearDown();
+    }
+
+    /// Records and collects frames, of which the first ones make what the others use.
+    template <class Record>
+    void expect_nothing_made(DevicePairTableBase& table, const Record& record) {
+        test_support::HostFrames host(host_device(), 1);
+        ASSERT_TRUE(world_->update(table).ok());  // makes room
+        for (std::uint64_t frame = first_frame_; frame < first_frame_ + 100; ++frame) {
+            for (const InstanceHandle instance : added_) {
+                const double angle = 0.7 * static_cast<double>(frame % 8);
+                ASSERT_TRUE(
+                    world_->move(instance, {{0.4 * instance.index, 0.0}, angle + instance.index})
+                        .ok());
+            }
+            const VkCommandBuffer commands = host.begin(frame);
+            expect_free(frame >= first_frame_ + 20, [&] {
+                return record(Recording{.commands = commands, .frame = frame}).ok();
+            });
+            host.submit(frame);
+            host.wait(frame);
+            expect_free(frame >= first_frame_ + 20, [&] {
+                watched_->frame_completed(frame);
+                return world_->is_recorded(table) && table.is_ready() && table.collect().ok();
+            });
+            EXPECT_GT(table.size(), 0U);
+        }
+        first_frame_ += 100;
+    }
+    template <class Call>
+    static void expect_free(bool is_warm, const Call& call) {
+        counted = {};
+        const std::uint64_t before = test_support::allocation_count_of_this_thread();
+        const bool ok = call();
+        const std::uint64_t own = test_support::allocation_count_of_this_thread() - before;
+        ASSERT_TRUE(ok);
+        EXPECT_EQ(counted.waits + counted.submissions, 0);
+        if (is_warm) {
+            EXPECT_EQ(own, counted.allocations_below);
+            EXPECT_EQ(counted.objects, 0);
+        }
+    }
+
+    std::optional<test_support::FakeLoader> loader_;
+    std::optional<Context> watched_;
+    std::optional<World> world_;
+    std::uint64_t first_frame_ = 0;
+};
+
+TEST_F(DevicePairRecordingCosts, AreNoAllocationNoObjectNoWaitAndNoSubmission) {
+    const ContactQuery query{.tolerance = 0.05, .contact_distance = 0.05, .resident = true};
+    DevicePairTable table(query);
+    expect_nothing_made(
+        table, [&](const Recording& recording) { return world_->record(table, recording); });
+    PoseBuffer buffer = make_buffer();
+    std::vector<HostPose> poses;
+    for (int i = 0; i < 20; ++i) {
+        poses.push_back({0.4F * static_cast<float>(i), 0.0F, 0.6F, 0.8F});
+    }
+    buffer.write(poses);
+    gpu().finish();
+    DevicePairTable on_device(query);
+    expect_nothing_made(on_device, [&](const Recording& recording) {
+        return world_->record(on_device, buffer.poses(), recording);
+    });
+}
+
+}  // namespace
+}  // namespace nearfield::test
