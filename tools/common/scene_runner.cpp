@@ -139,7 +139,9 @@ double SceneRunner::run_frame(FrameInput input) {
     if (input == FrameInput::all) {
         update_shapes();
     }
-    add_queries();
+    if (input != FrameInput::nothing) {
+        add_queries();
+    }
     require(context_.run(batch_, results_), file_);
     answer_world_queries({});
     const auto end = std::chrono::steady_clock::now();

@@ -29,6 +29,7 @@ enum class FrameInput {
     /// Poses alone, each by its last bit another one than in the frame before; shapes stay as they
     /// are, as do the instances that queries of all instances ask about.
     poses,
+    nothing,  ///< the batch of the frame before, as it was
 };
 
 /// Runs a scene in a context frame by frame.

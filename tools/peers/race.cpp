@@ -111,7 +111,7 @@ ProblemTimes race(const Problem& problem, Context& context) {
     const std::vector<std::unique_ptr<Entry>> entries = entries_of(problem);
     std::vector<benchmark::Contender> contenders;
     contenders.push_back({[&] { return ours.run_frame(tools::FrameInput::all); }, {}});
-    contenders.push_back({[&] { return kept.run_frame(tools::FrameInput::poses); }, {}});
+    contenders.push_back({[&] { return kept.run_frame(tools::FrameInput::nothing); }, {}});
     for (const std::unique_ptr<Entry>& owner : entries) {
         Entry& entry = *owner;
         times.peers.push_back(checked(entry, ours));

@@ -53,6 +53,8 @@ TEST(SceneRunner, ChangesEveryPoseWhereShapesStay) {
         EXPECT_NE(moved.second.x, 5.0) << "the pairs have the poses of the frame before";
         EXPECT_NEAR(moved.first.x, 5.0, 1e-14);
         EXPECT_NEAR(moved.second.x, 5.0, 1e-14);
+        static_cast<void>(runner.run_frame(FrameInput::nothing));
+        EXPECT_EQ(points_b(runner), moved);
         static_cast<void>(runner.run_frame(FrameInput::poses));
         EXPECT_EQ(points_b(runner), given);
     }
