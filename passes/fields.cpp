@@ -2,7 +2,6 @@
 #include <passes/search_shaders.hpp>
 
 #include <shaders/field_blocks_comp.hpp>
-#include <shaders/field_marks_comp.hpp>
 #include <shaders/field_quarters_comp.hpp>
 #include <shaders/field_regions_comp.hpp>
 #include <shaders/fields.h>
@@ -33,7 +32,7 @@ plan::FieldPush push_of(const RecordContext& context) {
     const plan::ComputeWork& work = context.batch.compute;
     const plan::FieldLists lists = work.field_lists();
     plan::FieldPush push{};
-    push.tiles = static_cast<std::uint32_t>(work.fields.shapes->units().size());
+    push.tiles = static_cast<std::uint32_t>(work.shapes->units().size());
     push.tile_count = static_cast<std::uint32_t>(work.fields.tiles.size());
     push.regions = lists.regions;
     push.quarters = lists.quarters;
@@ -49,8 +48,7 @@ plan::FieldPush push_of(const RecordContext& context) {
 }  // namespace
 
 Fields::Fields(const gpu::Device& device, const ComputeLayout& layout)
-    : marks_(make_field_shader(device, layout, shaders::field_marks_comp, "nearfield mark fields")),
-      regions_(make_field_shader(device, layout, shaders::field_regions_comp,
+    : regions_(make_field_shader(device, layout, shaders::field_regions_comp,
                                  "nearfield list for regions")),
       quarters_(make_field_shader(device, layout, shaders::field_quarters_comp,
                                   "nearfield list for quarters")),
@@ -64,14 +62,6 @@ Fields::Fields(const gpu::Device& device, const ComputeLayout& layout)
                                  "nearfield resolve crowded blocks")),
       points_(make_field_shader(device, layout, shaders::resolve_field_points_by_walks_comp,
                                 "nearfield resolve field points by walks")) {}
-
-graph::Handle Fields::declare_marks(TileGraph& graph, const Buffers& buffers) const {
-    return graph.add_compute_pass(
-        "mark fields", {{buffers.input, Access::storage_read_in_compute}}, buffers.scratch,
-        [this](VkCommandBuffer commands, const RecordContext& context) {
-            dispatch(commands, context, marks_, context.batch.compute.fields.chunks);
-        });
-}
 
 Fields::Buffers Fields::declare_lists(TileGraph& graph, Buffers buffers) const {
     const auto list = [&](const char* name, const ComputeShader& shader,

@@ -7,11 +7,11 @@
 
 namespace nearfield::passes {
 
-/// Distance fields of the compute technique (shaders/fields.h). The device marks the edges of B in
-/// the masks of tiles, and lists the edges that can be nearest in each block of 16 x 16 cells, from
-/// coarse to fine; the cells of a block search its list. Each dispatch covers all fields of a tile
-/// batch. No thread waits for another: on software drivers, barriers within a workgroup and shared
-/// memory cost the most.
+/// Distance fields of the compute technique (shaders/fields.h). The device lists the edges of B
+/// that can be nearest in each block of 16 x 16 cells, from coarse to fine; the cells of a block
+/// search its list, and masks tell their signs. Each dispatch covers all fields of a tile batch. No
+/// thread waits for another: on software drivers, barriers within a workgroup and shared memory
+/// cost the most.
 class Fields {
 public:
     Fields(const gpu::Device& device, const ComputeLayout& layout);
@@ -23,8 +23,6 @@ public:
         graph::Handle scratch;
         graph::Handle crowd;
     };
-    /// Adds the pass that marks edges in the masks; returns the new version of the scratch memory.
-    [[nodiscard]] graph::Handle declare_marks(TileGraph& graph, const Buffers& buffers) const;
     /// Adds the passes that list edges; returns the new versions.
     [[nodiscard]] Buffers declare_lists(TileGraph& graph, Buffers buffers) const;
     /// Adds the pass that writes the signed distances of cells; reads the masks for the signs.
@@ -52,7 +50,6 @@ private:
     void record_crowded(VkCommandBuffer commands, const RecordContext& context) const;
     void record_points(VkCommandBuffer commands, const RecordContext& context) const;
 
-    ComputeShader marks_;
     ComputeShader regions_;
     ComputeShader quarters_;
     ComputeShader blocks_;

@@ -21,7 +21,7 @@ struct TileBatchSets {
     VkDescriptorSet gradients = VK_NULL_HANDLE;
     std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
     VkDescriptorSet masks = VK_NULL_HANDLE;                          ///< of the compute technique
-    VkDescriptorSet fields = VK_NULL_HANDLE;                         ///< of the compute technique
+    VkDescriptorSet fields = VK_NULL_HANDLE;                         ///< of shapes in tiles
     VkDescriptorSet places = VK_NULL_HANDLE;                         ///< fields place by place
 
     [[nodiscard]] VkDescriptorSet field_by(SignEncoding encoding) const {
@@ -38,7 +38,6 @@ struct RecordContext {
     VkDeviceSize tile_mesh_offset;  ///< of its vertices with the rectangle of their tile
     VkBuffer scratch;               ///< the compute technique's scratch memory
     VkBuffer crowd;                 ///< arguments of its dispatch for crowded blocks
-    std::uint32_t subpixel_bits;    ///< precision of the grid that vertices are snapped to
     VkBuffer read_back;
     VkDeviceSize summaries_offset;  ///< offset of the summaries in the read-back, in bytes
     std::uint32_t sample_capacity;  ///< space in the read-back, in samples

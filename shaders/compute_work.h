@@ -1,10 +1,8 @@
-// The work of a tile batch of the compute technique, beyond edge lists and points, for shaders and
-// for C++ (see shared.h). Coordinates are in sub-pixel steps from the tile's low corner: the same
-// snapped vertices that the raster technique would draw.
+// The work of a tile batch of the compute technique, beyond edge lists, points and fields, for
+// shaders and for C++ (see shared.h).
 //
 // A mask has one bit per cell, in rows of whole words. Masks and other device-only data lie in the
-// device's scratch memory, at the word given. The elements of one kind lie one after the other in
-// an array of words; shaders read the words that they need.
+// device's scratch memory, at the word given.
 #ifndef NEARFIELD_SHADERS_COMPUTE_WORK_H
 #define NEARFIELD_SHADERS_COMPUTE_WORK_H
 
@@ -18,28 +16,43 @@ const uint block_side = 16u;
 const uint columns_per_thread = 2u;
 const uint threads_per_block = block_side / columns_per_thread;
 
-// Position and size of a mask.
-struct MaskData {
-    uint first_word NEARFIELD_DEFAULT(0);
-    uint words_per_row NEARFIELD_DEFAULT(0);
-    uint width NEARFIELD_DEFAULT(0);
-    uint height NEARFIELD_DEFAULT(0);
+// A shape as a tile sees it. Numbers in two parts are sums of two floats.
+struct ShapeInTileData {
+    // From the shape's frame to cells relative to the tile's low corner: the x axis, of a unit of
+    // the frame, and the shape's centre.
+    vec2 axis;
+    vec2 axis_low;
+    vec2 offset;
+    vec2 offset_low;
+    uint shape NEARFIELD_DEFAULT(0);  // its first unit in the input
+    uint size NEARFIELD_DEFAULT(0);   // of the tile: width | height << 16
+    uint mask NEARFIELD_DEFAULT(0);   // first word of its mask in the scratch memory
+    // In single precision two distances in the tile may be off by less than this together, in
+    // cells, beside a part of the distance itself
+    float slack NEARFIELD_DEFAULT(0.0F);
 };
-const uint words_of_mask = 4u;
-NEARFIELD_CHECK(sizeof(MaskData) == 4 * words_of_mask)
+const uint units_of_shape_in_tile = 3u;
+NEARFIELD_CHECK(sizeof(ShapeInTileData) == 16 * units_of_shape_in_tile)
 
-// An edge that inverts the samples to its left (geometry::FillMesh::Piece).
-struct MaskEdgeData {
-    int x0 NEARFIELD_DEFAULT(0);
-    int y0 NEARFIELD_DEFAULT(0);
-    int x1 NEARFIELD_DEFAULT(0);
-    int y1 NEARFIELD_DEFAULT(0);
-    uint mask NEARFIELD_DEFAULT(0);  // in ComputeWork::masks
+// A shape whose volume or boundary is put into a mask.
+struct MaskShapeData {
+    ShapeInTileData placed;
+    uint first_thread NEARFIELD_DEFAULT(0);  // among those of all shapes in masks
+    // Of a boundary: how far from it a cell's centre may be, in cells. Negative: the volume
+    float reach NEARFIELD_DEFAULT(-1.0F);
+    // Where the lowest edges within reach of the cells start, among those of all tiles, one word
+    // per cell; no_edges if they are not requested.
+    uint first_edge NEARFIELD_DEFAULT(0);
+    // A thread has 1 << shift places for edges (search.h): a box of some level of them, or, if it
+    // is less than box_shift, a part of a chunk.
+    uint shift NEARFIELD_DEFAULT(0);
 };
-const uint words_of_mask_edge = 5u;
-NEARFIELD_CHECK(sizeof(MaskEdgeData) == 4 * words_of_mask_edge)
+const uint units_of_mask_shape = units_of_shape_in_tile + 1u;
+NEARFIELD_CHECK(sizeof(MaskShapeData) == 16 * units_of_mask_shape)
+const uint no_edges = 0xffffffffu;
+const uint box_shift = 3u;  // of the eight places of a chunk, and of the eight boxes of a box
 
-// A row of a mask in which edges have inverted samples.
+// A row of a field's mask.
 struct MaskRowData {
     uint first_word NEARFIELD_DEFAULT(0);
     uint words NEARFIELD_DEFAULT(0);
@@ -47,43 +60,22 @@ struct MaskRowData {
 const uint words_of_mask_row = 2u;
 NEARFIELD_CHECK(sizeof(MaskRowData) == 4 * words_of_mask_row)
 
-// An offset polygon: a triangle fan around its first corner.
-const uint corners_of_polygon = 8u;
-struct MaskPolygonData {
-    int corners[2u * corners_of_polygon] NEARFIELD_DEFAULT({});  // x, y of each
-    uint overlap NEARFIELD_DEFAULT(0);                           // in ComputeWork::overlaps
-    uint run NEARFIELD_DEFAULT(0);                               // of A's edges, in TileBatch::runs
-};
-const uint overlap_of_polygon = 2u * corners_of_polygon;  // word
-const uint run_of_polygon = overlap_of_polygon + 1u;
-const uint words_of_polygon = run_of_polygon + 1u;
-NEARFIELD_CHECK(sizeof(MaskPolygonData) == 4 * words_of_polygon &&
-                offsetof(MaskPolygonData, overlap) == 4 * overlap_of_polygon &&
-                offsetof(MaskPolygonData, run) == 4 * run_of_polygon)
-// With the number of sub-pixel bits of a dispatch: its polygons are A's.
-const uint polygons_of_a = 256u;
-
 // An overlap tile.
 struct OverlapData {
-    uint mask_a NEARFIELD_DEFAULT(0);  // in ComputeWork::masks
+    uint mask_a NEARFIELD_DEFAULT(0);  // first words in the scratch memory
     uint mask_b NEARFIELD_DEFAULT(0);
-    // Where the runs of the cells of A's boundary start in the scratch memory, one word per cell;
-    // no_runs if they are not requested.
-    uint first_run NEARFIELD_DEFAULT(0);
-    uint tile NEARFIELD_DEFAULT(0);  // in TileBatch::tiles
-    uint list NEARFIELD_DEFAULT(0);  // 1: samples are listed; 0: only counted
+    uint size NEARFIELD_DEFAULT(0);        // width | height << 16
+    uint first_row NEARFIELD_DEFAULT(0);   // among the rows of all overlap tiles
+    uint first_edge NEARFIELD_DEFAULT(0);  // of the cells of A's boundary, as MaskShapeData's
+    uint tile NEARFIELD_DEFAULT(0);        // in TileBatch::tiles
+    uint flags NEARFIELD_DEFAULT(0);
+    uint unused NEARFIELD_DEFAULT(0);
 };
-const uint words_of_overlap = 5u;
-NEARFIELD_CHECK(sizeof(OverlapData) == 4 * words_of_overlap)
-const uint no_runs = 0xffffffffu;
-
-// A row of an overlap tile.
-struct OverlapRowData {
-    uint overlap NEARFIELD_DEFAULT(0);
-    uint row NEARFIELD_DEFAULT(0);
-};
-const uint words_of_overlap_row = 2u;
-NEARFIELD_CHECK(sizeof(OverlapRowData) == 4 * words_of_overlap_row)
+const uint units_of_overlap = 2u;
+NEARFIELD_CHECK(sizeof(OverlapData) == 16 * units_of_overlap)
+const uint overlap_lists = 1u;     // samples are listed, not only counted
+const uint overlap_volume_a = 2u;  // A takes part by its volume
+const uint overlap_volume_b = 4u;
 
 NEARFIELD_SHARED_END
 

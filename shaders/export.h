@@ -46,7 +46,7 @@ struct SampleTileData {
     uint hits NEARFIELD_DEFAULT(0);           // word of the first cell's hit, or of the mask of B
     uint mask_a NEARFIELD_DEFAULT(no_word);   // word of the mask of A; no_word where it was drawn
     uint words_per_row NEARFIELD_DEFAULT(0);  // of the masks
-    uint runs NEARFIELD_DEFAULT(no_word);  // with masks: word of the first cell's run of A's edges
+    uint runs NEARFIELD_DEFAULT(no_word);     // with masks: word of the first cell's edge of A
     // Word of the tables where the batch's runs start, two words each; no_word where A takes part
     // by its volume.
     uint run_table NEARFIELD_DEFAULT(no_word);

@@ -136,12 +136,13 @@ uint nearest_edge(uint first, uint count, vec2 point) {
 }
 
 uint edge_of(SampleTileData tile, uint cell, vec2 point) {
+    if (tile.mask_a != no_word) {
+        return tile.runs != no_word ? words[tile.runs + cell] : nearfield_no_edge;
+    }
     if (tile.run_table == no_word) {
         return nearfield_no_edge;
     }
-    uint run = tile.mask_a != no_word ? words[tile.runs + cell]
-                                      : words[tile.hits + cell] >> run_shift;
-    uint word = tile.run_table + 2u * run;
+    uint word = tile.run_table + 2u * (words[tile.hits + cell] >> run_shift);
     return nearest_edge(tables[word], tables[word + 1u], point);
 }
 

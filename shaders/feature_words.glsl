@@ -5,8 +5,8 @@
 const float relative_margin = 1.0 / 262144.0;
 
 bool is_filled(FieldTileData tile, uvec2 cell) {
-    uint words_per_row = (unpacked(tile.size).x + 31u) / 32u;
-    return (scratch[tile.mask + cell.y * words_per_row + cell.x / 32u] & (1u << (cell.x & 31u))) != 0u;
+    uint words_per_row = (unpacked(tile.b.size).x + 31u) / 32u;
+    return (scratch[tile.b.mask + cell.y * words_per_row + cell.x / 32u] & (1u << (cell.x & 31u))) != 0u;
 }
 
 // The nearest edge to a cell's centre.

@@ -80,7 +80,7 @@ bool list_segments(FieldTileData tile, Shape shape, uvec2 place, uint edges, uin
     scratch[push.blocks + 2u * block] = next;
     scratch[push.blocks + 2u * block + 1u] = count;
     vec2 low = vec2(place * block_side);
-    vec2 half_size = 0.5 * min(vec2(unpacked(tile.size)) - low, vec2(block_side));
+    vec2 half_size = 0.5 * min(vec2(unpacked(tile.b.size)) - low, vec2(block_side));
     for (uint i = 0u; i < edge_count; i += 32u) {
         uint some = i < 128u ? near[i / 32u]
                              : near_edges(shape, square, limits, edges + i,
@@ -88,7 +88,7 @@ bool list_segments(FieldTileData tile, Shape shape, uvec2 place, uint edges, uin
         for (; some != 0u; some &= some - 1u) {
             uint slot = scratch[edges + i + findLSB(some)];
             scratch_units[push.segments + next] =
-                segment_of(edge_seen_from(tile, shape, slot, low + half_size), half_size);
+                segment_of(edge_seen_from(tile.b, shape, slot, low + half_size), half_size);
             if (tile.first_feature != not_asked) {
                 scratch[push.numbers + next] = number_of(shape, slot);
             }
@@ -104,7 +104,7 @@ void main() {
         return;
     }
     FieldTileData tile = tile_at(tile_of(index, by_block));
-    Shape shape = shape_at(tile.shape);
+    Shape shape = shape_at(tile.b.shape);
     uvec2 place = place_of(tile, index - tile.first_block, block_side);
     uint quarter =
         tile.first_quarter + place.y / 2u * count_along(tile, quarter_side).x + place.x / 2u;

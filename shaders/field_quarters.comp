@@ -71,7 +71,7 @@ void main() {
         return;
     }
     FieldTileData tile = tile_at(tile_of(index, by_quarter));
-    Shape shape = shape_at(tile.shape);
+    Shape shape = shape_at(tile.b.shape);
     uvec2 place = place_of(tile, index - tile.first_quarter, quarter_side);
     Square square = square_at(tile, place, quarter_side);
     uint region = tile.first_region + place.y / 2u * count_along(tile, region_side).x + place.x / 2u;

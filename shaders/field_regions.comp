@@ -122,7 +122,7 @@ void main() {
         return;
     }
     FieldTileData tile = tile_at(tile_of(index, by_region));
-    Shape shape = shape_at(tile.shape);
+    Shape shape = shape_at(tile.b.shape);
     Square square =
         square_at(tile, place_of(tile, index - tile.first_region, region_side), region_side);
     uint list = push.regions + words_of_region * index;

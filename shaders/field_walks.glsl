@@ -11,11 +11,11 @@ struct Place {
 
 Place place_at(FieldTileData tile, vec2 cells) {
     float scale = scale_of(tile);
-    return Place(cells, in_frame(tile, cells), scale, tile.slack / scale);
+    return Place(cells, in_frame(tile, cells), scale, tile.b.slack / scale);
 }
 
 vec2 way_to(FieldTileData tile, Shape shape, Place place, uint slot, out uint vertex) {
-    SeenEdge edge = edge_seen_from(tile, shape, slot, place.cells);
+    SeenEdge edge = edge_seen_from(tile.b, shape, slot, place.cells);
     vertex = edge.from >= 0.0 ? first_vertex_flag : (edge.to <= 0.0 ? last_vertex_flag : 0u);
     return edge.nearest;
 }
@@ -138,7 +138,7 @@ bool find_rival(FieldTileData tile, Shape shape, Place place, Nearest nearest, i
 
 // Whether a ray from the place to growing x, in cells, meets a box.
 bool ray_meets(FieldTileData tile, Place place, vec4 box) {
-    vec2 along = vec2(tile.axis.x, -tile.axis.y) / place.scale;
+    vec2 along = vec2(tile.b.axis.x, -tile.b.axis.y) / place.scale;
     vec2 away = 0.5 * (box.xy + box.zw) - place.in_frame;
     vec2 half_size = 0.5 * (box.zw - box.xy);
     return abs(dot(along.yx * vec2(-1.0, 1.0), away)) <= dot(abs(along.yx), half_size) + place.slack &&
@@ -147,9 +147,9 @@ bool ray_meets(FieldTileData tile, Place place, vec4 box) {
 
 bool ray_crosses(FieldTileData tile, Shape shape, Place place, uint slot) {
     vec4 high = floats_at(shape.edges + slot);
-    vec4 low = low_parts(tile, slot);
-    Exact a = placed(tile, high.xy, low.xy, place.cells);
-    Exact b = placed(tile, high.zw, low.zw, place.cells);
+    vec4 low = low_parts(tile.b, slot);
+    Exact a = placed(tile.b, high.xy, low.xy, place.cells);
+    Exact b = placed(tile.b, high.zw, low.zw, place.cells);
     // Half-open in y, so a vertex on the ray counts once.
     if ((a.y.x > 0.0) == (b.y.x > 0.0)) {
         return false;

@@ -24,22 +24,10 @@ const uint words_of_quarter = 512u;
 // two words tell which is its first segment and how many there are.
 const uint crowded = 0xffffffffu;  // in place of a number: there was no room
 
-// A field tile. Numbers in two parts are sums of two floats.
+// A field tile.
 struct FieldTileData {
-    // From B's frame to cells relative to the tile's low corner: the x axis, of a unit of B's
-    // frame, and B's centre.
-    vec2 axis;
-    vec2 axis_low;
-    vec2 offset;
-    vec2 offset_low;
-    uint shape NEARFIELD_DEFAULT(0);  // first unit of B in the input
-    uint size NEARFIELD_DEFAULT(0);   // width | height << 16
-    uint mask NEARFIELD_DEFAULT(0);   // where its fill starts, in words of the scratch memory
-    // Two distances in its blocks may be off by less than this together, in cells, beside a part of
-    // the distance itself
-    float slack NEARFIELD_DEFAULT(0.0F);
-    // Numbers of the first of its chunks, regions, quarters and blocks, among those of all tiles
-    uint first_chunk NEARFIELD_DEFAULT(0);
+    ShapeInTileData b;
+    // Numbers of the first of its regions, quarters and blocks, among those of all tiles
     uint first_region NEARFIELD_DEFAULT(0);
     uint first_quarter NEARFIELD_DEFAULT(0);
     uint first_block NEARFIELD_DEFAULT(0);
@@ -47,7 +35,7 @@ struct FieldTileData {
     uint first_value NEARFIELD_DEFAULT(not_asked);
     uint first_feature NEARFIELD_DEFAULT(not_asked);
     float margin NEARFIELD_DEFAULT(0.0F);  // two distances that differ by less count as equal
-    uint unused NEARFIELD_DEFAULT(0);
+    uint unused[2] NEARFIELD_DEFAULT({});
 };
 const uint units_of_field_tile = 5u;
 NEARFIELD_CHECK(sizeof(FieldTileData) == 16 * units_of_field_tile)

@@ -133,7 +133,8 @@ NEARFIELD_CHECK(sizeof(TileSummary) == 4 * words_of_summary)
 struct SampleData {
     uint cell NEARFIELD_DEFAULT(0);  // column | row << 16, within the tile
     uint tile NEARFIELD_DEFAULT(0);
-    uint run NEARFIELD_DEFAULT(0);  // in TileBatch::runs, where A takes part by its boundary
+    // Where A takes part by its boundary: in TileBatch::runs, or the edge by the compute technique
+    uint run NEARFIELD_DEFAULT(0);
 };
 const uint words_of_sample = 3u;
 NEARFIELD_CHECK(sizeof(SampleData) == 4 * words_of_sample)

@@ -21,9 +21,9 @@ const vec4 corner_up = vec4(-1.0, -1.0, 1.0, 1.0);
 // The square of this side in a column and a row of a tile, as far as it lies in the tile.
 Square square_at(FieldTileData tile, uvec2 place, uint side) {
     vec2 low = vec2(place * side);
-    vec2 high = min(low + float(side), vec2(unpacked(tile.size)));
+    vec2 high = min(low + float(side), vec2(unpacked(tile.b.size)));
     vec2 half_size = 0.5 * (high - low);
-    vec2 axis = tile.axis / dot(tile.axis, tile.axis);
+    vec2 axis = tile.b.axis / dot(tile.b.axis, tile.b.axis);
     vec2 centre = in_frame(tile, 0.5 * (low + high));
     vec2 across = half_size.x * vec2(axis.x, -axis.y);
     vec2 up = half_size.y * vec2(axis.y, axis.x);
@@ -90,7 +90,7 @@ struct Limits {
 };
 
 Limits limits_of(FieldTileData tile, Shape shape, Square square, Rivals rivals) {
-    float slack = tile.slack / scale_of(tile) + sqrt(rivals.squared) / 131072.0;
+    float slack = tile.b.slack / scale_of(tile) + sqrt(rivals.squared) / 131072.0;
     return Limits(
         sqrt(corner_distances(square, floats_at(shape.edges + rivals.slot))) + slack,
         sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.x))) + slack,

@@ -30,10 +30,8 @@ struct CollectPush {
 struct CollectMasksPush {
     uint first;
     uint end;
-    uint rows;  // first word in the work buffer
-    uint masks;
-    uint overlaps;
-    uint runs;      // first word of the cells' runs in the scratch memory
+    uint overlap_count;
+    uint edges;     // first word of the cells' edges in the scratch memory
     uint capacity;  // space for samples
 };
 
@@ -46,28 +44,18 @@ struct CollectGradientsPush {
     uint tile;
 };
 
-struct MaskEdgesPush {
+struct MaskShapesPush {
     uint first;
     uint end;
-    uint edges;  // first word in the work buffer
-    uint masks;
-    uint bits;  // bits of sub-pixel precision
+    uint shapes;  // first unit in the input
+    uint shape_count;
+    uint edges;  // first word of the cells' edges in the scratch memory
 };
 
 struct MaskRowsPush {
     uint first;
     uint end;
     uint rows;  // first word in the work buffer
-};
-
-struct MaskPolygonsPush {
-    uint first;
-    uint end;
-    uint polygons;  // first word in the work buffer
-    uint masks;
-    uint overlaps;
-    uint runs;     // first word of the cells' runs in the scratch memory
-    uint bits_of;  // bits of sub-pixel precision; plus polygons_of_a: the polygons are A's
 };
 
 // Of all passes over fields whose lists the device makes (fields.h).

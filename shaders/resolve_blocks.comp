@@ -108,7 +108,7 @@ void main() {
     uint x = index % threads_per_block;
     FieldTileData tile = tile_at(tile_of(number, by_block));
     uvec2 low = block_side * place_of(tile, number - tile.first_block, block_side);
-    uvec2 tile_size = unpacked(tile.size);
+    uvec2 tile_size = unpacked(tile.b.size);
     uvec2 size = min(tile_size - low, uvec2(block_side));
     uint first = push.segments + scratch[push.blocks + 2u * number];
     uint count = scratch[push.blocks + 2u * number + 1u];
@@ -123,7 +123,7 @@ void main() {
     }
     uint words_per_row = (tile_size.x + 31u) / 32u;
     Rows block = Rows(tile.first_value + low.y * tile_size.x + low.x, tile_size.x,
-                      tile.mask + low.y * words_per_row + low.x / 32u, low.x % 32u, words_per_row,
+                      tile.b.mask + low.y * words_per_row + low.x / 32u, low.x % 32u, words_per_row,
                       size);
     write_rows(block, 0u, x, left.rows_0, right.rows_0);
     write_rows(block, 4u, x, left.rows_4, right.rows_4);

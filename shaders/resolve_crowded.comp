@@ -24,11 +24,11 @@ layout(std430, set = 0, binding = 3) writeonly buffer Field {
 void main() {
     uint number = scratch[push.crowd + gl_WorkGroupID.x];
     FieldTileData tile = tile_at(tile_of(number, by_block));
-    Shape shape = shape_at(tile.shape);
+    Shape shape = shape_at(tile.b.shape);
     uint index = gl_WorkGroupID.y * group_size + gl_LocalInvocationID.x;
     uvec2 cell = block_side * place_of(tile, number - tile.first_block, block_side) +
                  uvec2(index % block_side, index / block_side);
-    uvec2 size = unpacked(tile.size);
+    uvec2 size = unpacked(tile.b.size);
     if (any(greaterThanEqual(cell, size))) {
         return;
     }

@@ -96,7 +96,7 @@ void main() {
     uint next = scratch[push.blocks + 2u * number];
     uint first = push.segments + next;
     uint count = scratch[push.blocks + 2u * number + 1u];
-    uvec2 size = unpacked(tile.size);
+    uvec2 size = unpacked(tile.b.size);
     if (tile.first_feature == not_asked || count == crowded ||
         any(greaterThanEqual(cell, size))) {
         return;

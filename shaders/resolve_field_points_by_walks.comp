@@ -33,7 +33,7 @@ void main() {
     uint i = index % words;
     uvec4 point = unit_at(push.points + index / words);
     FieldTileData tile = tile_at(point.z);
-    Shape shape = shape_at(tile.shape);
+    Shape shape = shape_at(tile.b.shape);
     vec2 position = uintBitsToFloat(point.xy);
     if (i > 0u) {
         position = vec2(ivec2(unpacked(point.w)) + around[i - 1u]) + 0.5;

@@ -1,14 +1,8 @@
-#include <engine/base/interruption.hpp>
-#include <engine/geometry/fill_mesh.hpp>
-#include <engine/geometry/offset_mesh.hpp>
 #include <engine/plan/asked_points.hpp>
 #include <engine/plan/compute_batch_builder.hpp>
-#include <engine/plan/overlap_boundary.hpp>
 #include <engine/plan/tile_batch.hpp>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <numbers>
 
 namespace nearfield::plan {
@@ -17,16 +11,22 @@ namespace {
 using geometry::TransformedPolygon;
 using geometry::Vector;
 
+/// In place of the reach of a boundary.
+constexpr double by_volume = -1.0;
+
+/// Some drivers end the loops of threads that run in step, eight at a time, without notice after
+/// 65,535 turns. Half of that, since these may be the last of one shape and the first of another,
+/// which take turns one after the other.
+constexpr std::uint32_t max_turns = 30000;
+
+/// Upper bound on the turns that one edge takes such threads: a turn for each row, for each word of
+/// a row in which one of them sets cells and, if they are listed, for each of these cells.
+std::uint32_t turns_of_edge(const Tile& tile, bool is_boundary, bool is_listed) {
+    const std::uint32_t around = tile.width + tile.height;
+    return is_listed ? 24 * around : is_boundary ? 4 * around : tile.height + 8;
+}
+
 constexpr double margin_in_cells = uniqueness_margin / std::numbers::sqrt2;
-
-std::uint32_t words_for(std::uint32_t cells) {
-    return (cells + 31) / 32;
-}
-
-/// A snapped coordinate in steps: a whole number, since steps are a power of two.
-std::int32_t steps(double coordinate, const geometry::SubpixelGrid& grid) {
-    return static_cast<std::int32_t>(coordinate * grid.steps);
-}
 
 TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes) {
     const double cell = tile.grid.cell;
@@ -34,18 +34,15 @@ TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, Simplified
             ToCells(TransformedPolygon(*query.b, query.pose_b), tile.origin(), cell)};
 }
 
-std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
-    const MaskData mask{static_cast<std::uint32_t>(work.mask_words), words_for(tile.width),
-                        tile.width, tile.height};
-    work.mask_words += std::uint64_t{mask.words_per_row} * mask.height;
-    work.masks.push_back(mask);
-    return static_cast<std::uint32_t>(work.masks.size() - 1);
+std::uint32_t words_per_row(const Tile& tile) {
+    return (tile.width + 31) / 32;
 }
 
-void add_rows(const MaskData& mask, ComputeWork& work) {
-    for (std::uint32_t row = 0; row < mask.height; ++row) {
-        work.rows.push_back({mask.first_word + row * mask.words_per_row, mask.words_per_row});
-    }
+/// Reserves a mask; returns its first word.
+std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
+    const auto first = static_cast<std::uint32_t>(work.mask_words);
+    work.mask_words += std::uint64_t{words_per_row(tile)} * tile.height;
+    return first;
 }
 
 }  // namespace
@@ -75,90 +72,60 @@ bool ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile
     return true;
 }
 
-void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork& work) const {
-    const geometry::FillMesh fill(tile.width, tile.height, grid_);
-    SparseCheckpoint<256> checkpoint;
-    for (const TileEdge& edge : crossing_) {
-        checkpoint.step();
-        for (const auto& [x0, y0, x1, y1] : fill.pieces(edge.a, edge.b)) {
-            work.edges.push_back(
-                {steps(x0, grid_), steps(y0, grid_), steps(x1, grid_), steps(y1, grid_), mask});
-        }
+void ComputeBuilder::add_mask_shape(const ShapeInTileData& seen, const Tile& tile, double reach,
+                                    std::uint32_t first_edge, ComputeWork& work) const {
+    // Above this a thread takes the edges of more chunks, so that what is far away is passed over
+    // box by box.
+    constexpr std::uint32_t many_threads = 256;
+    const std::uint32_t places = chunk_size * shapes_.chunks_of(seen);
+    const std::uint32_t turns = turns_of_edge(tile, reach >= 0.0, first_edge != no_edges);
+    std::uint32_t shift = turns << box_shift <= max_turns ? box_shift : 0;
+    while (places >> shift > many_threads && turns << (shift + box_shift) <= max_turns) {
+        shift += box_shift;
     }
-    add_rows(work.masks[mask], work);
+    work.shapes = &shapes_.shapes();
+    work.mask_shapes.push_back({seen, work.mask_threads, rounded_up(reach), first_edge, shift});
+    work.mask_threads += (places + (1U << shift) - 1) >> shift;
 }
 
 void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
                                     const FieldTile& field, ComputeWork& work) {
-    std::uint32_t first_word = 0;
-    if (field.first_value != not_asked || field.first_feature != not_asked) {
-        const MaskData& mask = work.masks[add_mask(tile, work)];
-        add_rows(mask, work);
-        first_word = mask.first_word;
+    const bool any_cells = field.first_value != not_asked || field.first_feature != not_asked;
+    const std::uint32_t mask = any_cells ? add_mask(tile, work) : 0;
+    const ShapeInTileData seen = plan::add_field_tile(query, tile, mask, field.first_value,
+                                                      field.first_feature, shapes_, work.fields);
+    work.shapes = &shapes_.shapes();
+    if (any_cells) {
+        add_mask_shape(seen, tile, by_volume, no_edges, work);
+        for (std::uint32_t row = 0; row < tile.height; ++row) {
+            work.field_rows.push_back({mask + row * words_per_row(tile), words_per_row(tile)});
+        }
     }
-    field_tiles_.add(query, tile, first_word, field.first_value, field.first_feature, work.fields);
-}
-
-void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
-                                  std::uint32_t overlap, bool of_a, TileBatch& batch) const {
-    ComputeWork& work = batch.compute;
-    // Offset polygons reach a little farther than the offset.
-    const double reach = tile.centre().norm() + 2.0 * offset + 2.0;
-    SparseCheckpoint<64> checkpoint;
-    boundary.for_edges_near(tile.centre(), reach, [&](std::uint32_t i) {
-        checkpoint.step();
-        const auto polygon = geometry::offset_polygon(boundary.start(i), boundary.end(i), offset,
-                                                      tile.width, tile.height, grid_);
-        if (!polygon) {
-            return;
-        }
-        MaskPolygonData data;
-        for (std::size_t corner = 0; corner < polygon->size(); ++corner) {
-            data.corners[2 * corner] = steps((*polygon)[corner].x(), grid_);
-            data.corners[2 * corner + 1] = steps((*polygon)[corner].y(), grid_);
-        }
-        data.overlap = overlap;
-        if (of_a) {
-            data.run = static_cast<std::uint32_t>(batch.runs.size());
-            batch.runs.push_back({boundary.edge(i).first, boundary.edge(i).count});
-        }
-        (of_a ? work.polygons_a : work.polygons_b).push_back(data);
-    });
 }
 
 void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
-                                      const OverlapTile& asked, SimplifiedShapes& shapes,
-                                      TileBatch& batch) {
-    ComputeWork& work = batch.compute;
-    const double cell = tile.grid.cell;
-    const double simplification = query.budget.simplification;
-    const auto overlap = static_cast<std::uint32_t>(work.overlaps.size());
-    OverlapData data;
+                                      const OverlapTile& asked, ComputeWork& work) {
+    const double reach = query.budget.offset / tile.grid.cell;
+    const bool is_volume_a = asked.part_a == Part::volume;
+    const bool is_volume_b = asked.part_b == Part::volume;
+    OverlapData& data = work.overlaps.emplace_back();
+    data.mask_a = add_mask(tile, work);
+    data.mask_b = add_mask(tile, work);
+    data.size = tile.width | tile.height << 16U;
+    data.first_row = work.overlap_rows;
+    data.first_edge = no_edges;
     data.tile = asked.tile;
-    data.list = asked.lists ? 1 : 0;
-    const bool with_runs = (asked.lists || asked.keeps_hits) && asked.part_a == Part::boundary;
-    data.first_run = with_runs ? static_cast<std::uint32_t>(work.run_words) : no_runs;
-    if (with_runs) {
-        work.run_words += std::uint64_t{tile.width} * tile.height;
+    data.flags = (asked.lists ? overlap_lists : 0U) | (is_volume_a ? overlap_volume_a : 0U) |
+                 (is_volume_b ? overlap_volume_b : 0U);
+    work.overlap_rows += tile.height;
+    if ((asked.lists || asked.keeps_hits) && !is_volume_a) {
+        data.first_edge = static_cast<std::uint32_t>(work.edge_words);
+        work.edge_words += std::uint64_t{tile.width} * tile.height;
     }
-    const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part, bool of_a) {
-        const std::uint32_t mask = add_mask(tile, work);
-        const TileBoundary boundary = overlap_boundary(polygon, pose, query.budget, tile, shapes);
-        if (part == Part::boundary) {
-            add_boundary(boundary, tile, query.budget.offset / cell, overlap, of_a, batch);
-        } else {
-            crossing_.clear();
-            crossing_edges(boundary, tile.width, tile.height, simplification / cell, crossing_);
-            add_fill(tile, mask, work);
-        }
-        return mask;
-    };
-    data.mask_b = add(*query.b, query.pose_b, asked.part_b, false);
-    data.mask_a = add(*query.a, query.pose_a, asked.part_a, true);
-    work.overlaps.push_back(data);
-    for (std::uint32_t row = 0; row < tile.height; ++row) {
-        work.overlap_rows.push_back({overlap, row});
-    }
+    add_mask_shape(shapes_.see(*query.a, query.pose_a, tile, 0.0, data.mask_a), tile,
+                   is_volume_a ? by_volume : reach, data.first_edge, work);
+    add_mask_shape(shapes_.see(*query.b, query.pose_b, tile, 0.0, data.mask_b), tile,
+                   is_volume_b ? by_volume : reach, no_edges, work);
 }
 
 }  // namespace nearfield::plan

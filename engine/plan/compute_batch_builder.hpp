@@ -1,10 +1,9 @@
 #pragma once
 
-#include <engine/geometry/mesh.hpp>
 #include <engine/plan/compute_work.hpp>
-#include <engine/plan/field_tiles.hpp>
 #include <engine/plan/nearest_edges.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/plan/shapes_in_tiles.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
 
@@ -21,10 +20,8 @@ struct TileBatch;
 /// near edges. Keeps its scratch memory.
 class ComputeBuilder {
 public:
-    explicit ComputeBuilder(geometry::SubpixelGrid grid) : grid_(grid) {}
-
     /// Call first in each batch.
-    void begin_batch() { field_tiles_.begin_batch(); }
+    void begin_batch() { shapes_.begin_batch(); }
     /// Adds the edge lists of a tile of boundary points; false, with nothing added, if the tile is
     /// left to the CPU.
     [[nodiscard]] bool add_points_tile(const PlannedQuery& query, const Tile& tile,
@@ -35,17 +32,15 @@ public:
     /// Adds an overlap tile. `asked` says whether each shape takes part by its volume or its
     /// boundary.
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, const OverlapTile& asked,
-                          SimplifiedShapes& shapes, TileBatch& batch);
+                          ComputeWork& work);
 
 private:
-    /// Fills a mask with the shape whose edges are in crossing_.
-    void add_fill(const Tile& tile, std::uint32_t mask, ComputeWork& work) const;
-    void add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
-                      std::uint32_t overlap, bool of_a, TileBatch& batch) const;
+    /// Adds a shape with a mask of a tile. `reach`, `first_edge`: see MaskShapeData.
+    void add_mask_shape(const ShapeInTileData& seen, const Tile& tile, double reach,
+                        std::uint32_t first_edge, ComputeWork& work) const;
 
-    geometry::SubpixelGrid grid_;
+    ShapesInTiles shapes_;
     NearestEdgeFinder finder_;
-    FieldTiles field_tiles_;
     std::vector<NearestEdge> nearest_;
     std::vector<TileEdge> nearest_list_;
     std::vector<TileEdge> crossing_;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/plan/plan.hpp>
-#include <engine/plan/search_shapes.hpp>
+#include <engine/plan/shapes_in_tiles.hpp>
 
 #include <shaders/fields.h>
 
@@ -15,10 +15,7 @@ struct FieldWork {
     std::vector<FieldTileData> tiles;
     /// Points at which fields are reconstructed; their tiles are among those above.
     std::vector<PointData> points;
-    /// The input starts with these; they outlive the upload of the batch.
-    const SearchShapes* shapes = nullptr;
     // In all tiles together.
-    std::uint32_t chunks = 0;
     std::uint32_t regions = 0;
     std::uint32_t quarters = 0;
     std::uint32_t blocks = 0;
@@ -46,22 +43,15 @@ struct FieldLists {
 /// Upper bound on the bytes of a field's lists.
 [[nodiscard]] double bytes_of_field_lists(double cells);
 
-/// Describes field tiles for the device. Keeps what it makes of a shape until the shape changes.
-class FieldTiles {
-public:
-    void begin_batch() { is_begun_ = false; }
-    /// Adds a tile whose fill starts at a word of the scratch memory. `first_value`,
-    /// `first_feature`: where the outputs at cells go in the field's read-back, or not_asked; if
-    /// both are not, the tile only serves its points.
-    void add(const PlannedQuery& query, const Tile& tile, std::uint32_t mask,
-             std::uint32_t first_value, std::uint32_t first_feature, FieldWork& work);
-    /// Adds a point of a tile that has been added; `index`: in FieldWork::tiles.
-    static void add_point(const Tile& tile, std::uint32_t index, const PlannedFieldPoint& point,
-                          FieldWork& work);
+/// Adds a tile whose fill starts at a word of the scratch memory. `first_value`, `first_feature`:
+/// where the outputs at cells go in the field's read-back, or not_asked; if both are not, the tile
+/// only serves its points. Returns B as the tile sees it.
+ShapeInTileData add_field_tile(const PlannedQuery& query, const Tile& tile, std::uint32_t mask,
+                               std::uint32_t first_value, std::uint32_t first_feature,
+                               ShapesInTiles& shapes, FieldWork& work);
 
-private:
-    SearchShapes shapes_;
-    bool is_begun_ = false;  // the batch has used them
-};
+/// Adds a point of a tile that has been added; `index`: in FieldWork::tiles.
+void add_field_point(const Tile& tile, std::uint32_t index, const PlannedFieldPoint& point,
+                     FieldWork& work);
 
 }  // namespace nearfield::plan

@@ -7,7 +7,7 @@
 namespace nearfield::plan {
 
 /// A boundary for one tile of an intersection: simplified near the tile and reduced to a few edges
-/// elsewhere. Identical for every technique, so that the samples are, too. Valid until the next
+/// elsewhere. Identical for raster and cpu, so that their samples are, too. Valid until the next
 /// call to `shapes`.
 [[nodiscard]] inline TileBoundary overlap_boundary(const geometry::Polygon& polygon,
                                                    const Pose& pose, const ErrorBudget& budget,

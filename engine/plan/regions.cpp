@@ -59,7 +59,7 @@ double Regions::tiles(double side) const {
 }
 
 double Regions::bytes_of_masks(int masks, double largest_tile) const {
-    constexpr double bytes_per_row = 4.0 * (sizeof(MaskRowData) + sizeof(OverlapRowData));
+    constexpr double bytes_per_row = 4.0 * (sizeof(MaskRowData));
     double bytes = 0.0;
     for (const Grid& grid : grids_) {
         const double across = std::ceil(static_cast<double>(grid.width) / largest_tile);

@@ -143,8 +143,11 @@ void SearchShapes::list_edges(const Polygon& polygon, double deviation) {
     if (deviation > 0.0) {
         geometry::simplify(polygon, deviation, std::numeric_limits<double>::infinity(), edges_);
     } else {
-        for (std::uint32_t edge = 0; edge < polygon.size(); ++edge) {
-            edges_.push_back({edge, polygon.next(edge)});
+        for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+            const std::uint32_t end = polygon.ring_end(ring);
+            for (std::uint32_t edge = polygon.ring_begin(ring); edge < end; ++edge) {
+                edges_.push_back({edge, edge + 1 < end ? edge + 1 : polygon.ring_begin(ring)});
+            }
         }
     }
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {

@@ -130,8 +130,8 @@ void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& t
         case TileKind::overlap:
             compute_.add_overlap_tile(
                 query, tile,
-                describe_overlap(std::get<IntersectionQuery>(*query.query), tile, batch), shapes_,
-                batch);
+                describe_overlap(std::get<IntersectionQuery>(*query.query), tile, batch),
+                batch.compute);
             break;
     }
 }
@@ -354,7 +354,7 @@ void TileBatchBuilder::add_field_points(const Plan& plan, std::uint32_t number, 
             run.parts = query.field().parts;
         }
         if (batch.by_compute) {
-            FieldTiles::add_point(tile, field_tile_of_plan_[point.tile], point,
+            plan::add_field_point(tile, field_tile_of_plan_[point.tile], point,
                                   batch.compute.fields);
         } else {
             const Vector local = (point.position - tile.origin()) / tile.grid.cell;

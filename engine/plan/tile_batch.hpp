@@ -110,7 +110,7 @@ struct TileBatch {
     EdgeListWriter lists;
     std::vector<PointData> points;
     std::vector<std::uint32_t> point_index;  ///< by point: its position in Plan::points
-    std::vector<EdgeRun> runs;               ///< of A's edges, which offset polygons' ids refer to
+    std::vector<EdgeRun> runs;       ///< of A's edges, which drawn offset polygons' ids refer to
     std::uint64_t listed_cells = 0;  ///< cells of all overlap tiles whose samples are listed
     bool keeps_hits = false;         ///< there are overlap tiles whose hits are kept
     std::vector<FieldTile> field_tiles;
@@ -134,7 +134,7 @@ struct TileBatch {
 /// Turns the tiles of one tile batch into meshes, edge lists and points. Keeps its scratch memory.
 class TileBatchBuilder {
 public:
-    explicit TileBatchBuilder(geometry::SubpixelGrid grid) : grid_(grid), compute_(grid) {}
+    explicit TileBatchBuilder(geometry::SubpixelGrid grid) : grid_(grid) {}
 
     /// Drops simplified shapes; call first in each batch, since shapes may have changed.
     void begin_batch() {

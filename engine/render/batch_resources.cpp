@@ -183,7 +183,6 @@ passes::RecordContext BatchResources::record_context(std::uint32_t number) const
             .tile_mesh_offset = on_device.input.tile_meshes,
             .scratch = by_compute ? compute_[number]->scratch() : VK_NULL_HANDLE,
             .crowd = by_compute ? compute_[number]->crowd() : VK_NULL_HANDLE,
-            .subpixel_bits = device_->limits().subPixelPrecisionBits,
             .read_back = read_back_.handle(),
             .summaries_offset = on_device.output.summaries,
             .sample_capacity = on_device.sample_capacity};

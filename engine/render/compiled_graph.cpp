@@ -21,13 +21,15 @@ void CompiledGraph::declare_compute(const PipelineSet& passes) {
         results_ = graph_.import_buffer({"point results", false, true});
         passes.resolve_points().declare(graph_, input_, results_);
     }
+    if (needs.fields || needs.field_points || needs.overlap) {
+        shapes_ = graph_.import_buffer({"shapes in tiles", true, false});
+    }
     if (needs.fields || needs.field_points) {
-        shapes_ = graph_.import_buffer({"shapes and fields", true, false});
         long_searches_ = graph_.import_buffer({"long searches", true, true});
         field_ = graph_.import_buffer({"field results", false, true});
     }
     passes::Fields::Output output{long_searches_, field_};
-    if (needs.marks || needs.fields || needs.overlap) {
+    if (needs.fields || needs.overlap) {
         output = declare_masked(passes, output);
     }
     if (needs.field_points) {
@@ -38,26 +40,18 @@ void CompiledGraph::declare_compute(const PipelineSet& passes) {
 passes::Fields::Output CompiledGraph::declare_masked(const PipelineSet& passes,
                                                      passes::Fields::Output output) {
     const ComputeKey& needs = needs_.compute;
-    scratch_ = graph_.import_buffer({"scratch", false, false});
+    // The pass that exports samples reads the masks once more.
+    scratch_ = needs_.keeps_hits
+                   ? graph_.import_buffer({"scratch"}, {{}, graph::Access::storage_read_in_compute})
+                   : graph_.import_buffer({"scratch", false, false});
     Handle scratch = passes.masks().declare_clear(graph_, scratch_);
-    if (needs.marks) {
-        scratch = passes.masks().declare_marks(graph_, input_, scratch);
-    }
+    scratch = passes.masks().declare_shapes(graph_, shapes_, scratch);
     if (needs.fields) {
-        scratch = passes.fields().declare_marks(graph_, {shapes_, scratch, {}});
-    }
-    if (needs.marks || needs.fields) {
         scratch = passes.masks().declare_fill(graph_, input_, scratch);
-    }
-    if (needs.boundaries_b) {
-        scratch = passes.masks().declare_boundaries(graph_, input_, scratch, false);
-    }
-    if (needs.boundaries_a) {
-        scratch = passes.masks().declare_boundaries(graph_, input_, scratch, true);
     }
     if (needs.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
-        static_cast<void>(passes.masks().declare_collect(graph_, input_, scratch, samples_));
+        scratch = passes.masks().declare_collect(graph_, {input_, scratch, samples_});
     }
     return needs.fields ? declare_cells(passes.fields(), scratch, output) : output;
 }
@@ -91,8 +85,7 @@ void CompiledGraph::declare_drawn(const RasterPipelines& passes) {
     if (needs_.overlap != GraphKey{}.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
         if (needs_.keeps_hits) {
-            // Read once more by the pass that exports samples. Without that, masks in scratch
-            // memory are readable after the graph, since its last pass reads them.
+            // Read once more by the pass that exports samples.
             kept_hits_ =
                 graph_.import_buffer({"kept hits"}, {{}, graph::Access::storage_read_in_compute});
         }
@@ -161,7 +154,7 @@ void CompiledGraph::set_buffers(const Buffers& buffers) {
     set(mesh_, buffers.mesh);
     set(input_, buffers.input);
     set(scratch_, buffers.scratch);
-    set(shapes_, buffers.fields);
+    set(shapes_, buffers.shapes);
     set(crowd_, buffers.crowd);
     set(long_searches_, buffers.long_searches);
     set(results_, buffers.words);

@@ -30,7 +30,7 @@ public:
         VkBuffer mesh = VK_NULL_HANDLE;
         VkBuffer input = VK_NULL_HANDLE;    ///< of compute passes
         VkBuffer scratch = VK_NULL_HANDLE;  ///< of the compute technique
-        VkBuffer fields = VK_NULL_HANDLE;   ///< of the compute technique: shapes and tiles
+        VkBuffer shapes = VK_NULL_HANDLE;   ///< of the compute technique: shapes in tiles
         VkBuffer crowd = VK_NULL_HANDLE;
         VkBuffer long_searches = VK_NULL_HANDLE;
         VkBuffer words = VK_NULL_HANDLE;      ///< of points and fields

@@ -6,14 +6,30 @@
 #include <cstring>
 
 namespace nearfield::render {
+namespace {
+
+/// Copies the contents of vectors, one after the other.
+template <class... Vectors>
+void copy_to(std::byte* target, const Vectors&... vectors) {
+    const auto copy = [&](const auto& vector) {
+        if (!vector.empty()) {
+            std::memcpy(target, vector.data(), bytes_of(vector));
+            target += bytes_of(vector);
+        }
+    };
+    (copy(vectors), ...);
+}
+
+}  // namespace
+
 ComputeBuffers::ComputeBuffers(const gpu::Device& device)
     : device_(&device),
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
              "nearfield compute input"),
       scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                gpu::Direction::none, "nearfield compute scratch"),
-      fields_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-              gpu::Direction::upload, "nearfield fields"),
+      shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+              gpu::Direction::upload, "nearfield shapes in tiles"),
       crowd_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
              gpu::Direction::upload, "nearfield crowded blocks"),
       long_searches_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
@@ -26,13 +42,7 @@ BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
     BufferPart part{input_.handle(), (end_ + step - 1) / step * step, (bytes_of(vectors) + ...)};
     require_range(*device_, part.bytes, what);
     std::byte* target = input_.data() + part.offset;
-    const auto copy = [&](const auto& vector) {
-        if (!vector.empty()) {
-            std::memcpy(target, vector.data(), bytes_of(vector));
-            target += bytes_of(vector);
-        }
-    };
-    (copy(vectors), ...);
+    copy_to(target, vectors...);
     part.bytes = std::max(part.bytes, smallest_part);
     end_ = part.offset + part.bytes;
     return part;
@@ -44,7 +54,8 @@ void ComputeBuffers::upload(const plan::TileBatch& batch) {
     const std::uint64_t between =
         parts * (device_->limits().minStorageBufferOffsetAlignment + smallest_part);
     input_.reserve(between + bytes_of(batch.tiles) + bytes_of(batch.points) +
-                   bytes_of(batch.lists.geometry()) + work.ranges().words * sizeof(std::uint32_t));
+                   bytes_of(batch.lists.geometry()) + bytes_of(work.overlaps) +
+                   bytes_of(work.field_rows));
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
     require_range(*device_, scratch_bytes_, "the masks and lists");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
@@ -52,37 +63,36 @@ void ComputeBuffers::upload(const plan::TileBatch& batch) {
     tiles_ = append("the tiles", batch.tiles);
     points_ = append("the points", batch.points);
     geometry_ = append("the edges", batch.lists.geometry());
-    work_ = append("the edges of masks", work.masks, work.edges, work.rows, work.polygons_a,
-                   work.polygons_b, work.overlaps, work.overlap_rows);
+    work_ = append("the rows of masks", work.overlaps, work.field_rows);
     input_.flush();
-    field_bytes_ = 0;
-    if (!work.fields.tiles.empty()) {
-        upload_fields(work.fields);
+    shape_bytes_ = 0;
+    if (work.shapes != nullptr) {
+        upload_shapes(work);
     }
 }
 
 /// The shapes only if one of them changed.
-void ComputeBuffers::upload_fields(const plan::FieldWork& work) {
+void ComputeBuffers::upload_shapes(const plan::ComputeWork& work) {
     const auto shapes = std::as_bytes(work.shapes->units());
-    field_bytes_ = shapes.size() + bytes_of(work.tiles) + bytes_of(work.points);
-    const bool is_new =
-        reserve_with_texels(*device_, fields_, texels_, field_bytes_, "nearfield field texels");
+    const plan::FieldWork& fields = work.fields;
+    shape_bytes_ = shapes.size() + bytes_of(fields.tiles) + bytes_of(fields.points) +
+                   bytes_of(work.mask_shapes);
+    require_range(*device_, shape_bytes_, "the shapes");
+    const bool is_new = reserve_with_texels(*device_, shapes_, texels_, shape_bytes_,
+                                            "nearfield texels of shapes in tiles");
     if (is_new || work.shapes->revision() != revision_) {
-        std::copy(shapes.begin(), shapes.end(), fields_.data());
+        std::copy(shapes.begin(), shapes.end(), shapes_.data());
         revision_ = work.shapes->revision();
     }
-    std::byte* target = fields_.data() + shapes.size();
-    std::memcpy(target, work.tiles.data(), bytes_of(work.tiles));
-    if (!work.points.empty()) {
-        std::memcpy(target + bytes_of(work.tiles), work.points.data(), bytes_of(work.points));
-    }
-    fields_.flush();
+    std::byte* target = shapes_.data() + shapes.size();
+    copy_to(target, fields.tiles, fields.points, work.mask_shapes);
+    shapes_.flush();
     crowd_.reserve(smallest_part);
     long_searches_.reserve(smallest_part);
 }
 
 void ComputeBuffers::empty_crowd() const {
-    if (field_bytes_ == 0) {
+    if (shape_bytes_ == 0) {
         return;
     }
     const VkDispatchIndirectCommand none{0, plan::groups_per_block, 1};
@@ -93,7 +103,7 @@ void ComputeBuffers::empty_crowd() const {
 }
 
 bool ComputeBuffers::had_long_searches() const {
-    if (field_bytes_ == 0) {
+    if (shape_bytes_ == 0) {
         return false;
     }
     long_searches_.invalidate();
@@ -118,16 +128,16 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Til
     write(sets.masks, Layout::scratch_of_masks, scratch);
     write(sets.masks, Layout::summaries, output.summaries);
     write(sets.masks, Layout::output, output.samples);
-    if (field_bytes_ > 0) {
-        const auto write_fields = [&](VkDescriptorSet set) {
-            write(set, Layout::shapes, {fields_.handle(), 0, field_bytes_});
+    if (shape_bytes_ > 0) {
+        const auto write_shapes = [&](VkDescriptorSet set) {
+            write(set, Layout::shapes, {shapes_.handle(), 0, shape_bytes_});
             write(set, Layout::scratch_of_fields, scratch);
             write(set, Layout::output, output.field);
             layout.write_texels(set, Layout::texels, texels_.get());
         };
-        write_fields(sets.fields);
+        write_shapes(sets.fields);
         write(sets.fields, Layout::crowd, {crowd_.handle(), 0, smallest_part});
-        write_fields(sets.places);
+        write_shapes(sets.places);
         write(sets.places, Layout::long_searches, {long_searches_.handle(), 0, smallest_part});
     }
 }

@@ -30,12 +30,13 @@ public:
 
     [[nodiscard]] VkBuffer input() const { return input_.handle(); }
     [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
-    /// Shapes and tiles of fields, the arguments of the dispatch for crowded blocks, and the number
-    /// of searches there that were too long.
-    [[nodiscard]] VkBuffer fields() const { return fields_.handle(); }
+    /// Shapes in tiles of fields and masks.
+    [[nodiscard]] VkBuffer shapes() const { return shapes_.handle(); }
+    /// The arguments of the dispatch for crowded blocks of fields, and the number of searches there
+    /// that were too long.
     [[nodiscard]] VkBuffer crowd() const { return crowd_.handle(); }
     [[nodiscard]] VkBuffer long_searches() const { return long_searches_.handle(); }
-    /// Empties the last two; call before each submission.
+    /// Empties both; call before each submission.
     void empty_crowd() const;
     /// Call once the device is done with the last uploaded tile batch.
     [[nodiscard]] bool had_long_searches() const;
@@ -54,7 +55,7 @@ private:
     /// Copies the contents of vectors, one after the other, into the next part of the input.
     template <class... Vectors>
     BufferPart append(const char* what, const Vectors&... vectors);
-    void upload_fields(const plan::FieldWork& work);
+    void upload_shapes(const plan::ComputeWork& work);
 
     const gpu::Device* device_;
     gpu::MappedBuffer input_;
@@ -62,12 +63,12 @@ private:
     std::uint64_t end_ = 0;  // of the data in the input
     std::uint64_t scratch_bytes_ = 0;
     BufferPart tiles_, points_, geometry_, work_;
-    gpu::MappedBuffer fields_;
+    gpu::MappedBuffer shapes_;
     gpu::MappedBuffer crowd_;
     gpu::MappedBuffer long_searches_;
-    gpu::Owned<VkBufferView> texels_;  // of fields_
-    std::uint64_t field_bytes_ = 0;    // none: the last uploaded tile batch has no fields
-    std::uint64_t revision_ = 0;       // of the shapes in fields_
+    gpu::Owned<VkBufferView> texels_;  // of shapes_
+    std::uint64_t shape_bytes_ = 0;    // none: the last uploaded tile batch has no shapes in tiles
+    std::uint64_t revision_ = 0;       // of the shapes in shapes_
 };
 
 }  // namespace nearfield::render

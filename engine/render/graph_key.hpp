@@ -14,10 +14,7 @@ struct ComputeKey {
     bool field_values = false;
     bool field_features = false;
     bool field_points = false;  ///< some output at points of a field
-    bool marks = false;         ///< edges in masks that the host lists: a volume as a mask
     bool fields = false;        ///< values or features of fields
-    bool boundaries_a = false;
-    bool boundaries_b = false;
     bool overlap = false;
 
     friend bool operator==(const ComputeKey&, const ComputeKey&) = default;

@@ -195,7 +195,7 @@ void BatchResources::bind_buffers(CompiledGraph& graph, std::uint32_t number) co
         const ComputeBuffers& compute = *compute_[number];
         graph.set_buffers({.input = compute.input(),
                            .scratch = compute.scratch(),
-                           .fields = compute.fields(),
+                           .shapes = compute.shapes(),
                            .crowd = compute.crowd(),
                            .long_searches = compute.long_searches(),
                            .words = words,

@@ -21,10 +21,7 @@ ComputeKey compute_key_of(const plan::TileBatch& batch) {
     needs.field_values = work.fields.values;
     needs.field_features = work.fields.features;
     needs.field_points = !work.fields.points.empty();
-    needs.marks = !work.edges.empty();
     needs.fields = work.fields.values || work.fields.features;
-    needs.boundaries_a = !work.polygons_a.empty();
-    needs.boundaries_b = !work.polygons_b.empty();
     needs.overlap = !work.overlaps.empty();
     return needs;
 }

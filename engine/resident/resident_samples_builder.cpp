@@ -78,7 +78,7 @@ void ResidentSamplesBuilder::add(const plan::Plan& plan,
     if (!box.isEmpty()) {
         samples.origin = box.center();
     }
-    if (by_edge) {
+    if (by_edge && planned.technique == Technique::raster) {
         add_vertices(planned, samples, resident);
     }
     add_tiles(plan, tile_batches, asked, resident);
@@ -123,14 +123,14 @@ void ResidentSamplesBuilder::find_masks(const plan::Plan& plan, const plan::Tile
     for (const plan::OverlapData& overlap : work.overlaps) {
         found.index = batch.tile_index[overlap.tile];
         if (plan.queries[plan.tiles[found.index].query].resident) {
-            const plan::MaskData& mask_b = work.masks[overlap.mask_b];
             found.data.summary = overlap.tile;
-            found.data.hits = mask_b.first_word;
-            found.data.mask_a = work.masks[overlap.mask_a].first_word;
-            found.data.words_per_row = mask_b.words_per_row;
-            found.data.runs = overlap.first_run == plan::no_runs
-                                  ? plan::no_word
-                                  : static_cast<std::uint32_t>(work.mask_words) + overlap.first_run;
+            found.data.hits = overlap.mask_b;
+            found.data.mask_a = overlap.mask_a;
+            found.data.words_per_row = ((overlap.size & 0xffffU) + 31) / 32;
+            found.data.runs =
+                overlap.first_edge == plan::no_edges
+                    ? plan::no_word
+                    : static_cast<std::uint32_t>(work.mask_words) + overlap.first_edge;
             tiles_.push_back(found);
         }
     }

@@ -59,6 +59,12 @@ void ResultDecoder::add_summaries(const plan::Plan& plan, const plan::TileBatch&
 
 void ResultDecoder::add_samples(const plan::Plan& plan, const plan::TileBatch& batch,
                                 std::span<const plan::SampleData> samples) {
+    const auto run_of = [&](const plan::SampleData& sample) -> plan::EdgeRun {
+        if (batch.by_compute) {
+            return {sample.run, 1};
+        }
+        return batch.runs.empty() ? plan::EdgeRun{} : batch.runs[sample.run];
+    };
     for (const plan::SampleData& sample : samples) {
         const std::uint32_t index = batch.tile_index[sample.tile];
         const Tile& tile = plan.tiles[index];
@@ -66,8 +72,7 @@ void ResultDecoder::add_samples(const plan::Plan& plan, const plan::TileBatch& b
             {tile.query, tile.region, tile.row + (sample.cell >> 16U),
              tile.column + (sample.cell & 0xffffU),
              records::make_sample(plan.queries[tile.query], tile, sample.cell & 0xffffU,
-                                  sample.cell >> 16U,
-                                  batch.runs.empty() ? plan::EdgeRun{} : batch.runs[sample.run])});
+                                  sample.cell >> 16U, run_of(sample))});
     }
 }
 

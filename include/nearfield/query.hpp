@@ -43,22 +43,22 @@ inline constexpr double max_deviation = 0.25;
 ///
 /// All techniques give the same records: the same points, and depths and distances that differ by
 /// less than d/1000. A point penetrates a shape if it is inside and deeper than d/1024; otherwise
-/// it touches. Intersections have the same samples and edges, bit for bit, on a device with 8
-/// sub-pixel bits, whose grid cpu has everywhere; on others, only raster and compute do. Fields
-/// have the same grid, and values within both error bounds; signs differ only where these allow
-/// it, near the boundary.
+/// it touches. Intersections have the same cells; raster and cpu find the same samples and edges,
+/// bit for bit, on a device with 8 sub-pixel bits, whose grid cpu has everywhere. Those of compute
+/// may differ within the error bound, near the boundaries. Fields have the same grid, and values
+/// within both error bounds; signs differ only where these allow it, near the boundary.
 enum class Technique {
     /// Selects, per query, the technique that makes the batch take the least time by the costs on
     /// this machine (Settings::costs).
     automatic,
     /// The paper's: fields are drawn on the device, and the results refined on the CPU.
     raster,
-    /// Runs on the device without rasterisation: bit masks for fills, lists of near edges for
-    /// distances. Answers every query that raster answers, except GradientMethod::blended, which is
-    /// drawn (invalid_query), and fields of which more than 12,000 edges are about equally near to
-    /// a cell (too_large in the result). IntersectionStrategy and SignEncoding, which are ways of
-    /// drawing with
-    /// identical results, are ignored here and need nothing of the device.
+    /// Runs on the device without rasterisation: bit masks for volumes and boundaries, which for
+    /// intersections are those of the shapes' own edges, and lists of near edges for distances.
+    /// Answers every query that raster answers, except GradientMethod::blended, which is drawn
+    /// (invalid_query), and fields of which more than 12,000 edges are about equally near to a cell
+    /// (too_large in the result). IntersectionStrategy and SignEncoding, which are ways of drawing,
+    /// are ignored here and need nothing of the device.
     compute,
     /// Runs entirely on the CPU, and its answers have the same bits on every machine. Points are
     /// resolved to single edges in double precision, intersections by bit masks of a raster's

@@ -21,7 +21,10 @@ protected:
         const CorpusKeeper keeper(placed.pair(), placed.tolerance());
         SCOPED_TRACE(describe(placed.pair()));
         for (const IntersectionKind kind : every_kind) {
-            check_intersection(placed, kind, run_alone(context(), placed.intersection(kind)));
+            IntersectionQuery query = placed.intersection(kind);
+            check_intersection(placed, kind, run_alone(context(), query));
+            query.technique = Technique::compute;
+            check_intersection(placed, kind, run_alone(context(), query));
         }
     }
 };

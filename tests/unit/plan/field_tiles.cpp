@@ -113,18 +113,17 @@ TEST(FieldTiles, AreWhereTheirTilesAre) {
     tile.column = 130;
     tile.width = 200;
     tile.height = 65;
-    FieldTiles tiles;
-    tiles.begin_batch();
+    ShapesInTiles shapes;
     FieldWork work;
-    tiles.add(query, tile, 7, not_asked, not_asked, work);
+    add_field_tile(query, tile, 7, not_asked, not_asked, shapes, work);
     EXPECT_EQ(work.blocks, 0U) << "it only serves points";
-    tiles.add(query, tile, 7, 11, not_asked, work);
-    tiles.add(query, tile, 7, 12, 13, work);
+    add_field_tile(query, tile, 7, 11, not_asked, shapes, work);
+    add_field_tile(query, tile, 7, 12, 13, shapes, work);
     EXPECT_EQ(work.tiles[2].first_region, 4U * 2U);
     EXPECT_EQ(work.tiles[2].first_quarter, 7U * 3U);
     EXPECT_EQ(work.tiles[2].first_block, 13U * 5U);
     EXPECT_EQ(work.blocks, 2U * 13U * 5U);
-    const FieldTileData& data = work.tiles.back();
+    const ShapeInTileData& data = work.tiles.back().b;
     const geometry::TransformedPolygon placed(polygon, query.pose_b);
     const double unit = unit_length_of(polygon);
     const auto sum = [](float high, float low) {

@@ -1,0 +1,126 @@
+#include <tests/query/all_numbers.hpp>
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 4711;
+constexpr IntersectionKind every_kind[] = {IntersectionKind::boundary_boundary,
+                                           IntersectionKind::boundary_volume,
+                                           IntersectionKind::volume_volume};
+
+/// Masks that the device makes from the shapes' own edges, against the oracle.
+class ComputeIntersections : public QueryTest {
+protected:
+    static void check(Context& context, Pair pair) {
+        const PlacedPair placed(context, std::move(pair), Technique::compute);
+        SCOPED_TRACE(placed.pair().a.name + " and " + placed.pair().b.name);
+        for (const IntersectionKind kind : every_kind) {
+            SCOPED_TRACE("kind " + std::to_string(static_cast<int>(kind)));
+            IntersectionQuery query = placed.intersection(kind);
+            const IntersectionResult result = run_alone(context, query);
+            EXPECT_EQ(result.technique, Technique::compute);
+            EXPECT_GT(result.count, 0U);
+            check_intersection(placed, kind, result);
+            query.records = false;
+            const IntersectionResult counted = run_alone(context, query);
+            EXPECT_EQ(counted.count, result.count);
+            EXPECT_EQ(counted.box.min, result.box.min);
+            EXPECT_EQ(counted.box.max, result.box.max);
+        }
+    }
+    static void check(Pair pair) { check(context(), std::move(pair)); }
+};
+
+TEST_F(ComputeIntersections, HoldForManyEdgesInACell) {
+    Random random(seed);
+    check({{"fine coast", coast(random, 9000, 0.4)},
+           {"coarse coast", coast(random, 300, 0.5)},
+           {},
+           {{0.3, -0.2}, 1.0},
+           0.02});
+    check({{"coast", coast(random, 4000, 0.6)},
+           {"another", coast(random, 5000, 0.6)},
+           {{}, 0.3},
+           {{0.2, 0.1}, 2.0},
+           0.03});
+}
+
+TEST_F(ComputeIntersections, HoldForHolesAndIslands) {
+    Random random(seed);
+    for (int i = 0; i < 6; ++i) {
+        check({{"holes", with_holes(random, 40)},
+               {"parts", several_parts(random, 40)},
+               {{}, random.between(0.0, 6.0)},
+               {{random.between(-0.4, 0.4), 0.1}, random.between(0.0, 6.0)},
+               0.015});
+    }
+}
+
+TEST_F(ComputeIntersections, HoldFarFromEveryOrigin) {
+    Random random(seed);
+    const Rings a = with_holes(random, 20);
+    const Rings b = coast(random, 2000, 0.5);
+    const Vector2 far{1e6, -2e6};
+    check({{"A", a}, {"B", b}, {far, 0.7}, {{far.x + 0.4, far.y + 0.2}, 2.0}, 0.02});
+    // By their own coordinates.
+    check({{"far A", scaled_and_moved(a, 1.0, far)},
+           {"far B", scaled_and_moved(b, 1.0, {far.x - 0.3, far.y + 0.2})},
+           {},
+           {},
+           0.02});
+    // Shapes of millions of cells, of which a few are common.
+    const Rings square = rectangle({-1e6, -1e6}, {0.3, 0.2});
+    check({{"large", square}, {"small", star(random, 30, 0.5)}, {}, {}, 0.05});
+    const Rings strip = rectangle({-2.0, -0.4}, {1e6, 0.5});
+    check({{"large", square}, {"long", strip}, {}, {{}, 0.7}, 0.05});
+}
+
+/// Most of a thousand rows, or columns, which each of many edges spans.
+TEST_F(ComputeIntersections, HoldForLongEdgesInALargeTile) {
+    for (const double angle : {0.0, 1.5}) {
+        check({{"comb", comb(60)}, {"comb", comb(70)}, {{}, angle}, {{0.1, 0.05}, angle}, 0.0015});
+    }
+}
+
+TEST_F(ComputeIntersections, HoldOverManyTileBatches) {
+    Expected<Context> small = Context::create(host_device(), drawing({.memory_limit = 12U << 20U}));
+    ASSERT_TRUE(small.has_value()) << small.error().text();
+    Random random(seed);
+    check(*small, {{"A", scaled_and_moved(with_holes(random, 5), 10.0, {})},
+                   {"B", scaled_and_moved(star(random, 40, 0.6), 10.0, {})},
+                   {},
+                   {{1.0, 0.5}, 0.2},
+                   0.052});
+}
+
+TEST_F(ComputeIntersections, AreTheSameBitsInEveryRun) {
+    Random random(seed);
+    const PlacedPair first(context(), any_pair(random), Technique::compute);
+    const PlacedPair second(context(),
+                            {{"A", coast(random, 3000, 0.5)},
+                             {"B", with_holes(random, 9)},
+                             {},
+                             {{0.2, 0.1}, 1.0},
+                             0.01},
+                            Technique::compute);
+    Batch batch;
+    for (const IntersectionKind kind : every_kind) {
+        batch.add(second.intersection(kind));
+        batch.add(first.intersection(kind));
+    }
+    Results once;
+    ASSERT_TRUE(context().run(batch, once).ok());
+    for (int i = 0; i < 5; ++i) {
+        Results again;
+        ASSERT_TRUE(context().run(batch, again).ok());
+        EXPECT_EQ(all_numbers(again), all_numbers(once));
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test
