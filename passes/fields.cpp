@@ -32,7 +32,7 @@ plan::FieldPush push_of(const RecordContext& context) {
     const plan::ComputeWork& work = context.batch.compute;
     const plan::FieldLists lists = work.field_lists();
     plan::FieldPush push{};
-    push.tiles = static_cast<std::uint32_t>(work.shapes->units().size());
+    push.tiles = context.shape_units;
     push.tile_count = static_cast<std::uint32_t>(work.fields.tiles.size());
     push.regions = lists.regions;
     push.quarters = lists.quarters;

@@ -51,7 +51,7 @@ graph::Handle Masks::declare_shapes(TileGraph& graph, graph::Handle shapes,
 void Masks::record_shapes(VkCommandBuffer commands, const RecordContext& context) const {
     const plan::ComputeWork& work = context.batch.compute;
     // Behind the shapes, and the tiles and points of fields.
-    const std::size_t first = work.shapes->units().size() +
+    const std::size_t first = context.shape_units +
                               work.fields.tiles.size() * plan::units_of_field_tile +
                               work.fields.points.size();
     shapes_.bind(commands, context.sets.fields);

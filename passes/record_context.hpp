@@ -37,6 +37,7 @@ struct RecordContext {
     VkDeviceSize mesh_offset;       ///< of the tile batch's vertices of meshes, in bytes
     VkDeviceSize tile_mesh_offset;  ///< of its vertices with the rectangle of their tile
     VkBuffer scratch;               ///< the compute technique's scratch memory
+    std::uint32_t shape_units;      ///< of the shapes before the work of fields and masks
     VkBuffer crowd;                 ///< arguments of its dispatch for crowded blocks
     VkBuffer read_back;
     VkDeviceSize summaries_offset;  ///< offset of the summaries in the read-back, in bytes

@@ -39,17 +39,27 @@ void BatchRunner::begin_timings(std::size_t queries) {
     }
 }
 
-void BatchRunner::make_tile_batches() {
-    plan::TileBatchBuilder& builder = planning_->builder;
-    builder.begin_batch();
-    tile_batches_.resize(std::max<std::size_t>(tile_batches_.size(), plan_.tile_batches));
+void BatchRunner::build_tile_batches() {
     for (std::uint32_t number = 0; number < plan_.tile_batches; ++number) {
         checkpoint();
-        builder.build(plan_, number, tile_batches_[number]);
+        planning_->builder.build(plan_, number, tile_batches_[number]);
     }
-    search_count_ = planning_->searches.build(plan_, searches_);
-    resident_outputs_builder_.build(plan_, std::span(tile_batches_).first(plan_.tile_batches),
-                                    results_.results, resident_);
+}
+
+void BatchRunner::make_tile_batches() {
+    planning_->builder.begin_batch();
+    tile_batches_.resize(std::max<std::size_t>(tile_batches_.size(), plan_.tile_batches));
+    build_tile_batches();
+    const auto tile_batches = std::span(tile_batches_).first(plan_.tile_batches);
+    // Shapes of earlier batches, or what they left as they grew, must not take up the room.
+    if (std::any_of(tile_batches.begin(), tile_batches.end(), [this](const auto& tile_batch) {
+            return tile_batch.compute.shape_bytes() > planning_->largest_range;
+        })) {
+        planning_->builder.forget_shapes();
+        build_tile_batches();
+    }
+    search_count_ = planning_->searches.build(plan_, planning_->largest_range, searches_);
+    resident_outputs_builder_.build(plan_, tile_batches, results_.results, resident_);
 }
 
 /// Moves queries to the CPU that cannot be recorded as they are, if they allow it.

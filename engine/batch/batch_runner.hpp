@@ -29,12 +29,14 @@ struct Planning {
     plan::TileBatchBuilder builder;
     plan::PointSearchBuilder searches;
     results::AnswerJobs answers;
+    std::uint64_t largest_range;  // see plan::PlanLimits
 
     Planning(const plan::PlanLimits& limits, const CostModel& costs, const JobSystem& jobs)
-        : selector(costs, limits.techniques),
+        : selector(costs, limits.techniques, limits.largest_range),
           planner(limits),
           builder(limits.subpixel),
-          answers(jobs) {}
+          answers(jobs),
+          largest_range(limits.largest_range) {}
 };
 
 /// Runs one batch from queries to results, in two steps: everything up to its submission, and the
@@ -113,6 +115,7 @@ private:
     void time_device();
     [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
     void make_tile_batches();
+    void build_tile_batches();
     void plan_batch(plan::Submissions submissions);
     void wait();
     void read_back();

@@ -22,6 +22,7 @@ class ComputeBuilder {
 public:
     /// Call first in each batch.
     void begin_batch() { shapes_.begin_batch(); }
+    void forget_shapes() { shapes_.clear(); }
     /// Adds the edge lists of a tile of boundary points; false, with nothing added, if the tile is
     /// left to the CPU.
     [[nodiscard]] bool add_points_tile(const PlannedQuery& query, const Tile& tile,

@@ -27,6 +27,8 @@ struct ComputeWork {
 
     void clear();
 
+    /// Of the input that starts with the shapes.
+    [[nodiscard]] std::uint64_t shape_bytes() const;
     [[nodiscard]] FieldLists field_lists() const { return {fields, mask_words + edge_words}; }
     [[nodiscard]] std::uint64_t scratch_words() const { return field_lists().end; }
 };

@@ -2,6 +2,7 @@
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/overlap_planner.hpp>
+#include <engine/plan/search_shapes.hpp>
 #include <nearfield/resident.hpp>
 
 #include <shaders/layout.h>
@@ -46,6 +47,21 @@ bool check_strategy(IntersectionStrategy strategy, const CurrentQuery& current,
                      std::string("the device lacks what the intersection strategy ") +
                          to_string(strategy) + " needs; each reason names one thing",
                      missing};
+    return false;
+}
+
+/// Checks that the shapes fit into a storage buffer of the device, if it reads them; the result
+/// states the error.
+bool check_shapes(const CurrentQuery& current, ResultSummary& result) {
+    const PlannedQuery& planned = current.planned();
+    const std::uint64_t bytes = max_shape_bytes(*planned.a, *planned.b);
+    if (planned.technique != Technique::compute || bytes <= current.limits.largest_range) {
+        return true;
+    }
+    result.status = {StatusCode::too_large, "for Technique::compute the shapes may take " +
+                                                std::to_string(bytes) +
+                                                " bytes; a storage buffer of this device holds " +
+                                                std::to_string(current.limits.largest_range)};
     return false;
 }
 
@@ -109,7 +125,7 @@ void OverlapPlanner::plan(const IntersectionQuery& query, CurrentQuery& current,
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const Box box_a = a.box();
     const Box box_b = b.box();
-    if (!check_strategy(query.strategy, current, result) ||
+    if (!check_strategy(query.strategy, current, result) || !check_shapes(current, result) ||
         !check_boxes(planned, box_a, box_b, result)) {
         return;
     }

@@ -4,6 +4,7 @@
 #include <engine/plan/point_planner.hpp>
 #include <engine/plan/point_search.hpp>
 #include <engine/plan/region.hpp>
+#include <engine/plan/search_shapes.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -81,6 +82,7 @@ bool can_be_searched(CurrentQuery& current, double samples, double bytes_of_reco
     constexpr double bytes_of_found = sizeof(PlannedPoint) + sizeof(std::uint32_t);
     return planned.technique == Technique::compute && !planned.resident &&
            samples <= max_searched_points &&
+           max_shape_bytes(*planned.a, *planned.b) <= current.limits.largest_range &&
            current.memory.fits_roughly(samples, bytes_of_found + bytes_of_record);
 }
 

@@ -51,12 +51,22 @@ BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found
     return {found.edge, found.number / parts_of_length(length, query.budget.cell)};
 }
 
-std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& searches) {
-    std::size_t count = 0;
+std::size_t PointSearchBuilder::build(Plan& plan, std::uint64_t largest_range,
+                                      std::vector<PointSearch>& searches) {
     if (plan.searched.empty()) {
-        return count;
+        return 0;
     }
     shapes_.begin_batch();
+    std::size_t count = fill(plan, searches);
+    if (shapes_.units().size_bytes() > largest_range) {
+        shapes_.clear();
+        count = fill(plan, searches);
+    }
+    return count;
+}
+
+std::size_t PointSearchBuilder::fill(Plan& plan, std::vector<PointSearch>& searches) {
+    std::size_t count = 0;
     for (const SearchedQuery& searched : plan.searched) {
         checkpoint();
         const PlannedQuery& planned = plan.queries[searched.query];

@@ -44,11 +44,13 @@ inline constexpr double max_searched_points = 1U << 21U;
 class PointSearchBuilder {
 public:
     /// Fills the first searches of `searches`, which grows as needed, and returns their number.
-    std::size_t build(Plan& plan, std::vector<PointSearch>& searches);
+    /// Shapes of earlier plans are kept as long as all take at most `largest_range` bytes.
+    std::size_t build(Plan& plan, std::uint64_t largest_range, std::vector<PointSearch>& searches);
     /// The shapes of the last build, and more; the input starts with them.
     [[nodiscard]] const SearchShapes& shapes() const { return shapes_; }
 
 private:
+    std::size_t fill(Plan& plan, std::vector<PointSearch>& searches);
     void add(Plan& plan, const SearchedQuery& searched, PointSearch& search);
 
     SearchShapes shapes_;

@@ -67,6 +67,16 @@ float rounded_up(double value) {
                            : rounded;
 }
 
+std::uint64_t max_shape_bytes(const Polygon& polygon) {
+    const std::uint64_t rings = polygon.ring_count();
+    const std::uint64_t chunks = polygon.size() / chunk_size + rings;
+    // Boxes of all levels, edges and their low parts, their numbers and places, starts of rings.
+    const std::uint64_t units = units_of_header + chunks + chunks / (chunk_size - 1) + 16 +
+                                std::uint64_t{2} * chunk_size * chunks + 2 * (chunks / 4 + 1) +
+                                rings / 4 + 1;
+    return units * sizeof(SearchUnit);
+}
+
 std::size_t SearchShapes::Hash::operator()(const Key& key) const {
     return std::hash<const Polygon*>{}(key.polygon) ^ (std::hash<double>{}(key.length) << 1U) ^
            static_cast<std::size_t>(key.content);
@@ -86,10 +96,15 @@ void SearchShapes::drop_unused() {
     const std::size_t most =
         units_.size() > many ? units_in_use_ + units_in_use_ / 4 : 4 * units_in_use_;
     if (units_.size() > most + few) {
-        entries_.clear();
-        units_.clear();
-        ++revision_;
+        clear();
     }
+}
+
+void SearchShapes::clear() {
+    entries_.clear();
+    units_.clear();
+    units_in_use_ = 0;
+    ++revision_;
 }
 
 std::uint32_t SearchShapes::find_or_make(const Key& key) {

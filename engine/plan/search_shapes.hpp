@@ -24,10 +24,20 @@ using SearchUnit = std::array<std::uint32_t, 4>;
 /// A float that is not below the value.
 [[nodiscard]] float rounded_up(double value);
 
+/// Upper bound on the bytes of a shape, placed for whatever use.
+[[nodiscard]] std::uint64_t max_shape_bytes(const geometry::Polygon& polygon);
+/// The same for two shapes, which may be one.
+[[nodiscard]] inline std::uint64_t max_shape_bytes(const geometry::Polygon& a,
+                                                   const geometry::Polygon& b) {
+    return max_shape_bytes(a) + (&a != &b ? max_shape_bytes(b) : 0);
+}
+
 /// Shapes as the device's searches read them (shaders/search.h), one after the other. Keeps what it
 /// makes of a shape until the shape changes.
 class SearchShapes {
 public:
+    /// Forgets all shapes; those of the present batch have to be placed again.
+    void clear();
     /// Begins a batch: what most recent ones did not use may go, and places with it.
     void begin_batch();
     /// The first unit of a shape, until the next batch begins.

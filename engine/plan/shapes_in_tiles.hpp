@@ -14,6 +14,7 @@ namespace nearfield::plan {
 class ShapesInTiles {
 public:
     void begin_batch() { is_begun_ = false; }
+    void clear() { shapes_.clear(); }
     /// A shape whose mask starts at a word of the scratch memory. `deviation`: of a simplified
     /// boundary; 0: the shape's own edges.
     [[nodiscard]] ShapeInTileData see(const geometry::Polygon& polygon, const Pose& pose,

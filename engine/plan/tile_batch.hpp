@@ -141,6 +141,9 @@ public:
         shapes_.clear();
         compute_.begin_batch();
     }
+    /// Forgets what shapes earlier batches have left in the device's memory; all tile batches of
+    /// the present one have to be built again.
+    void forget_shapes() { compute_.forget_shapes(); }
     void build(const Plan& plan, std::uint32_t number, TileBatch& batch);
 
 private:

@@ -182,6 +182,7 @@ passes::RecordContext BatchResources::record_context(std::uint32_t number) const
             .mesh_offset = on_device.input.meshes,
             .tile_mesh_offset = on_device.input.tile_meshes,
             .scratch = by_compute ? compute_[number]->scratch() : VK_NULL_HANDLE,
+            .shape_units = by_compute ? compute_[number]->shape_units() : 0,
             .crowd = by_compute ? compute_[number]->crowd() : VK_NULL_HANDLE,
             .read_back = read_back_.handle(),
             .summaries_offset = on_device.output.summaries,

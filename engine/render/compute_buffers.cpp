@@ -75,8 +75,8 @@ void ComputeBuffers::upload(const plan::TileBatch& batch) {
 void ComputeBuffers::upload_shapes(const plan::ComputeWork& work) {
     const auto shapes = std::as_bytes(work.shapes->units());
     const plan::FieldWork& fields = work.fields;
-    shape_bytes_ = shapes.size() + bytes_of(fields.tiles) + bytes_of(fields.points) +
-                   bytes_of(work.mask_shapes);
+    shape_bytes_ = work.shape_bytes();
+    shape_units_ = static_cast<std::uint32_t>(work.shapes->units().size());
     require_range(*device_, shape_bytes_, "the shapes");
     const bool is_new = reserve_with_texels(*device_, shapes_, texels_, shape_bytes_,
                                             "nearfield texels of shapes in tiles");

@@ -32,6 +32,8 @@ public:
     [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
     /// Shapes in tiles of fields and masks.
     [[nodiscard]] VkBuffer shapes() const { return shapes_.handle(); }
+    /// Units of the shapes themselves, as uploaded: a later batch may have changed what is kept.
+    [[nodiscard]] std::uint32_t shape_units() const { return shape_units_; }
     /// The arguments of the dispatch for crowded blocks of fields, and the number of searches there
     /// that were too long.
     [[nodiscard]] VkBuffer crowd() const { return crowd_.handle(); }
@@ -68,7 +70,8 @@ private:
     gpu::MappedBuffer long_searches_;
     gpu::Owned<VkBufferView> texels_;  // of shapes_
     std::uint64_t shape_bytes_ = 0;    // none: the last uploaded tile batch has no shapes in tiles
-    std::uint64_t revision_ = 0;       // of the shapes in shapes_
+    std::uint32_t shape_units_ = 0;
+    std::uint64_t revision_ = 0;  // of the shapes in shapes_
 };
 
 }  // namespace nearfield::render

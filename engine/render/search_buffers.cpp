@@ -43,6 +43,7 @@ void SearchBuffers::upload(const plan::SearchShapes& shapes, const plan::PointSe
     const auto directions = std::as_bytes(std::span(search.directions));
     const auto blocks = std::as_bytes(std::span(search.first_directions));
     input_bytes_ = shape_bytes.size() + directions.size() + blocks.size();
+    require_range(*device_, input_bytes_, "the shapes and queries");
     const bool is_new =
         reserve_with_texels(*device_, input_, texels_, input_bytes_, "nearfield search texels");
     std::byte* target = input_.data();

@@ -1,4 +1,5 @@
 #include <engine/base/interruption.hpp>
+#include <engine/plan/search_shapes.hpp>
 #include <engine/select/technique_selector.hpp>
 #include <engine/select/work.hpp>
 
@@ -21,11 +22,19 @@ bool are_known(const AnyQuery& query, const plan::QueryShapes& shapes) {
            (shapes.a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
 }
 
-/// Whether the compute technique may find only while it answers that it cannot: of a field, more
-/// edges may be equally near to a cell than it compares.
-bool may_be_refused(const AnyQuery& query, const plan::QueryShapes& shapes) {
-    return std::holds_alternative<DistanceFieldQuery>(query) && shapes.b != nullptr &&
-           shapes.b->size() > plan::max_certain_edges;
+/// Whether the compute technique may refuse a query that others answer: the shapes may exceed a
+/// storage buffer or, which it finds only while it answers, more edges may be equally near to a
+/// cell of a field than it compares.
+bool may_be_refused(const AnyQuery& query, const plan::QueryShapes& shapes,
+                    std::uint64_t largest_range) {
+    if (!are_known(query, shapes)) {
+        return false;
+    }
+    if (std::holds_alternative<DistanceFieldQuery>(query)) {
+        return shapes.b->size() > plan::max_certain_edges;
+    }
+    return std::holds_alternative<IntersectionQuery>(query) &&
+           plan::max_shape_bytes(*shapes.a, *shapes.b) > largest_range;
 }
 
 }  // namespace
@@ -80,8 +89,8 @@ void TechniqueSelector::estimate(Candidate& candidate) const {
     for (std::uint32_t i = 0; i < count; ++i) {
         // An invalid query may contain NaN, which gives no time.
         const double time = work.time(costs_[i]);
-        const bool is_ruled_out =
-            i == compute && can_answer(Technique::cpu, query) && may_be_refused(query, shapes);
+        const bool is_ruled_out = i == compute && can_answer(Technique::cpu, query) &&
+                                  may_be_refused(query, shapes, largest_range_);
         candidate.times[i] = can_answer(by_position[i], query) && !is_ruled_out
                                  ? (time < never ? time : 0.0)
                                  : never;

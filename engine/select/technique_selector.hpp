@@ -17,8 +17,12 @@ namespace nearfield::select {
 /// paid once for all queries that use it, so the best choice for one query depends on the others.
 class TechniqueSelector {
 public:
-    TechniqueSelector(const CostModel& costs, const plan::AvailableTechniques& available)
-        : costs_({costs.raster, costs.compute, costs.cpu}), available_(available) {}
+    /// `largest_range`: bytes of a storage buffer of the device.
+    TechniqueSelector(const CostModel& costs, const plan::AvailableTechniques& available,
+                      std::uint64_t largest_range)
+        : costs_({costs.raster, costs.compute, costs.cpu}),
+          available_(available),
+          largest_range_(largest_range) {}
 
     /// Replaces Technique::automatic by the selected technique; `shapes`: of each query. It stays
     /// if no available technique can answer, which the planner rejects. Other queries that will be
@@ -71,6 +75,7 @@ private:
 
     std::array<TechniqueCost, count> costs_;
     plan::AvailableTechniques available_;
+    std::uint64_t largest_range_;
     std::vector<Candidate> candidates_;
 };
 

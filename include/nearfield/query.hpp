@@ -56,9 +56,9 @@ enum class Technique {
     /// Runs on the device without rasterisation: bit masks for volumes and boundaries, which for
     /// intersections are those of the shapes' own edges, and lists of near edges for distances.
     /// Answers every query that raster answers, except GradientMethod::blended, which is drawn
-    /// (invalid_query), and fields of which more than 12,000 edges are about equally near to a cell
-    /// (too_large in the result). IntersectionStrategy and SignEncoding, which are ways of drawing,
-    /// are ignored here and need nothing of the device.
+    /// (invalid_query) and, with too_large in the result, intersections of millions of edges and
+    /// fields of which over 12,000 edges are about equally near to a cell. IntersectionStrategy
+    /// and SignEncoding, which are ways of drawing, are ignored and need nothing of the device.
     compute,
     /// Runs entirely on the CPU, and its answers have the same bits on every machine. Points are
     /// resolved to single edges in double precision, intersections by bit masks of a raster's

@@ -3,7 +3,11 @@
 #include <tests/query/query_test.hpp>
 
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace nearfield::test {
 namespace {
@@ -120,6 +124,95 @@ TEST_F(ComputeIntersections, AreTheSameBitsInEveryRun) {
         ASSERT_TRUE(context().run(batch, again).ok());
         EXPECT_EQ(all_numbers(again), all_numbers(once));
     }
+}
+
+/// Samples for which there was no room are collected again, when other shapes may be kept.
+TEST_F(ComputeIntersections, StayAsTheyAreWhileOtherBatchesAreSubmitted) {
+    const Rings square = rectangle({-1.0, -1.0}, {1.0, 1.0});
+    IntersectionQuery query;
+    query.tolerance = 0.01;
+    query.kind = IntersectionKind::volume_volume;
+    query.technique = Technique::compute;
+    DistanceFieldQuery field;
+    field.tolerance = 0.02;
+    field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+    field.technique = Technique::compute;
+    std::vector<std::vector<double>> answers;
+    for (const char* const meanwhile : {"nothing", "another shape", "a new outline"}) {
+        SCOPED_TRACE(meanwhile);
+        Expected<Context> made = Context::create(host_device());
+        ASSERT_TRUE(made.has_value()) << made.error().text();
+        query.a.shape = query.b.shape = field.b.shape = *made->add_shape(square);
+        Batch batch;
+        batch.add(query);
+        batch.add(field);
+        const Expected<Ticket> ticket = made->submit(batch);
+        ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
+        if (meanwhile == std::string("another shape")) {
+            Random random(seed);
+            query.a.shape = *made->add_shape(star(random, 100, 0.5));
+        } else if (meanwhile == std::string("a new outline")) {
+            Random random(seed);
+            ASSERT_TRUE(made->update_shape(query.a.shape, star(random, 100, 0.5)).ok());
+        }
+        Batch later;
+        later.add(query);
+        const Expected<Ticket> second = made->submit(later);
+        ASSERT_TRUE(second.has_value()) << second.error().text();
+        Results results;
+        ASSERT_TRUE(made->collect(*ticket, results).ok());
+        EXPECT_GT(std::get<IntersectionResult>(results.results[0]).count, 20000U);
+        answers.push_back(all_numbers(results));
+        EXPECT_EQ(answers.back(), answers.front());
+        ASSERT_TRUE(made->collect(*second, results).ok());
+    }
+}
+
+/// Two shapes of which each fits, but not both: shapes of earlier batches make room.
+TEST_F(ComputeIntersections, OfLargeShapesDoNotDependOnThoseBefore) {
+    const auto circle = [](int edges) {
+        Ring ring;
+        for (int i = 0; i < edges; ++i) {
+            const double angle = 2.0 * std::numbers::pi * i / edges;
+            ring.push_back({std::cos(angle), std::sin(angle)});
+        }
+        return Rings{ring};
+    };
+    Expected<Context> made = Context::create(host_device());
+    ASSERT_TRUE(made.has_value()) << made.error().text();
+    const ShapeHandle square = *made->add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    IntersectionQuery query;
+    query.b.shape = square;
+    query.tolerance = 0.1;
+    query.kind = IntersectionKind::volume_volume;
+    query.technique = Technique::compute;
+    const auto count_of = [&](ShapeHandle shape) {
+        query.a.shape = shape;
+        const IntersectionResult result = run_alone(*made, query);
+        EXPECT_TRUE(result.status.ok()) << result.status.text();
+        return result.count;
+    };
+    constexpr int many = 2'000'000;
+    const ShapeHandle first = *made->add_shape(circle(many));
+    const ShapeHandle second = *made->add_shape(circle(many));
+    const std::uint64_t count = count_of(first);
+    EXPECT_GT(count, 100U);
+    EXPECT_EQ(count_of(second), count);
+    EXPECT_EQ(count_of(first), count);
+    // What grows gets more room than it needs, elsewhere.
+    ASSERT_TRUE(made->update_shape(first, circle(many + 8)).ok());
+    EXPECT_EQ(count_of(first), count);
+    // One that never fits is refused by itself.
+    query.a.shape = *made->add_shape(circle(2 * many));
+    Batch batch;
+    batch.add(query);
+    query.a.shape = square;
+    batch.add(query);
+    Results results;
+    ASSERT_TRUE(made->run(batch, results).ok());
+    EXPECT_EQ(std::get<IntersectionResult>(results.results[0]).status.code(),
+              StatusCode::too_large);
+    EXPECT_TRUE(std::get<IntersectionResult>(results.results[1]).status.ok());
 }
 
 }  // namespace

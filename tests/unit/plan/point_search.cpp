@@ -40,7 +40,7 @@ protected:
         build();
     }
     void build() {
-        ASSERT_EQ(builder_.build(plan_, searches_), 1U);
+        ASSERT_EQ(builder_.build(plan_, std::uint64_t{1} << 27U, searches_), 1U);
         ASSERT_EQ(search().directions.size(), 1U);
     }
 

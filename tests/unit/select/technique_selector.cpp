@@ -1,3 +1,4 @@
+#include <engine/plan/search_shapes.hpp>
 #include <engine/plan/technique.hpp>
 #include <engine/select/technique_selector.hpp>
 #include <engine/select/work.hpp>
@@ -50,10 +51,11 @@ protected:
         return query;
     }
 
-    std::vector<AnyQuery> choose(const CostModel& costs, std::vector<AnyQuery> queries) const {
+    std::vector<AnyQuery> choose(const CostModel& costs, std::vector<AnyQuery> queries,
+                                 std::uint64_t largest_range = std::uint64_t{1} << 27U) const {
         std::vector<plan::QueryShapes> shapes;
         plan::find_shapes(queries, find(), shapes);
-        TechniqueSelector(costs, {}).choose(queries, shapes);
+        TechniqueSelector(costs, {}, largest_range).choose(queries, shapes);
         return queries;
     }
 
@@ -83,6 +85,20 @@ TEST_F(ChooserTest, LeavesWhatIsAskedForByName) {
     for (std::size_t i = 0; i < queries.size(); ++i) {
         EXPECT_EQ(technique_of(chosen[i]), technique_of(queries[i]));
     }
+}
+
+TEST_F(ChooserTest, AvoidsComputeWhereItsBuffersAreTooSmall) {
+    CostModel costs = ChooserTest::costs();
+    costs.compute.submission = 0.0;
+    costs.cpu.intersection = costs.raster.intersection = {1.0, 1.0, 1.0};
+    costs.compute.intersection = {};
+    IntersectionQuery overlap;
+    overlap.a.shape = {0, 0};
+    overlap.b.shape = {1, 0};
+    overlap.tolerance = 0.01;
+    const std::uint64_t needed = plan::max_shape_bytes(small_, large_);
+    EXPECT_EQ(technique_of(choose(costs, {overlap}, needed)[0]), Technique::compute);
+    EXPECT_NE(technique_of(choose(costs, {overlap}, needed - 1)[0]), Technique::compute);
 }
 
 TEST_F(ChooserTest, PaysForASubmissionOnlyWhereItIsWorthIt) {
