@@ -59,7 +59,7 @@ struct Exact {
     vec2 y;
 };
 
-// A point of the shape's frame, in cells relative to a place in the in_tile. Equal for equal vertices.
+// A point of the shape's frame, in cells relative to a place in the tile. Equal for equal vertices.
 Exact placed(ShapeInTileData in_tile, vec2 high, vec2 low, vec2 place) {
     vec2 x = vec2(high.x, low.x);
     vec2 y = vec2(high.y, low.y);

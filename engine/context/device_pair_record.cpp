@@ -21,7 +21,7 @@ void DevicePairTableBase::State::require_complete_frame(const char* call) const 
 void DevicePairTableBase::State::report_open_frame() const noexcept {
     if (frame_ && !context_->is_complete(*frame_)) {
         context_->device()->log(LogLevel::error, [&] {
-            return "a DevicePairTable goes while what was recorded of it for frame " +
+            return "a DevicePairTable is destroyed while what was recorded of it for frame " +
                    std::to_string(*frame_) +
                    " may still run; the device has to finish it, or never begin, and "
                    "Context::frame_completed() says so";

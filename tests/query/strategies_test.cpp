@@ -101,6 +101,18 @@ void expect_same_edges(const IntersectionResult& a, const IntersectionResult& b)
     }
 }
 
+/// The query without its list of samples.
+void expect_same_count(Context& context, IntersectionQuery query,
+                       const IntersectionResult& listed) {
+    query.records = false;
+    const IntersectionResult counted = run_alone(context, query);
+    EXPECT_EQ(counted.count, listed.count);
+    EXPECT_EQ(counted.area, listed.area);
+    EXPECT_EQ(counted.box.min, listed.box.min);
+    EXPECT_EQ(counted.box.max, listed.box.max);
+    EXPECT_TRUE(counted.samples.empty());
+}
+
 void Strategies::check(const PlacedPair& pair, Context& context, const Settings& settings) {
     SCOPED_TRACE(describe(pair.pair()));
     for (const IntersectionKind kind : every_kind) {
@@ -125,13 +137,7 @@ void Strategies::check(const PlacedPair& pair, Context& context, const Settings&
                 first = result;
             }
             expect_same_edges(first, result);
-            query.records = false;
-            const IntersectionResult counted = run_alone(context, query);
-            EXPECT_EQ(counted.count, result.count);
-            EXPECT_EQ(counted.area, result.area);
-            EXPECT_EQ(counted.box.min, result.box.min);
-            EXPECT_EQ(counted.box.max, result.box.max);
-            EXPECT_TRUE(counted.samples.empty());
+            expect_same_count(context, query, result);
         }
         query.technique = Technique::cpu;
         query.records = true;
@@ -142,13 +148,7 @@ void Strategies::check(const PlacedPair& pair, Context& context, const Settings&
             expect_same_edges(first, other);
         }
         EXPECT_EQ(first.intersects, other.intersects);
-        query.records = false;
-        const IntersectionResult counted = run_alone(context, query);
-        EXPECT_EQ(counted.count, other.count);
-        EXPECT_EQ(counted.area, other.area);
-        EXPECT_EQ(counted.box.min, other.box.min);
-        EXPECT_EQ(counted.box.max, other.box.max);
-        EXPECT_TRUE(counted.samples.empty());
+        expect_same_count(context, query, other);
     }
 }
 

@@ -84,6 +84,24 @@ void HostFrames::wait(std::uint64_t frame) {
                     "vkWaitForFences");
 }
 
+namespace {
+
+/// Begins a primary or secondary command buffer.
+void begin_outside_passes(const HostDevice& host, VkCommandBuffer commands,
+                          VkCommandBufferUsageFlags flags) {
+    VkCommandBufferInheritanceInfo outside{};
+    outside.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO;
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = flags;
+    info.pInheritanceInfo = &outside;
+    require_success(
+        host_function<PFN_vkBeginCommandBuffer>(host, "vkBeginCommandBuffer")(commands, &info),
+        "vkBeginCommandBuffer");
+}
+
+}  // namespace
+
 KeptCommands::KeptCommands(const HostDevice& host) : host_(host) {
     VkCommandPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -111,14 +129,7 @@ VkCommandBuffer KeptCommands::begin(VkCommandBufferLevel level) const {
     require_success(
         NEARFIELD_HOST_CALL(vkAllocateCommandBuffers)(host_.device, &allocation, &commands),
         "vkAllocateCommandBuffers");
-    VkCommandBufferInheritanceInfo outside{};
-    outside.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO;
-    VkCommandBufferBeginInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    info.flags = VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT;
-    info.pInheritanceInfo = &outside;
-    require_success(NEARFIELD_HOST_CALL(vkBeginCommandBuffer)(commands, &info),
-                    "vkBeginCommandBuffer");
+    begin_outside_passes(host_, commands, VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT);
     return commands;
 }
 
@@ -164,14 +175,7 @@ SecondaryCommands::~SecondaryCommands() {
 }
 
 VkCommandBuffer SecondaryCommands::begin() const {
-    VkCommandBufferInheritanceInfo outside{};
-    outside.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO;
-    VkCommandBufferBeginInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    info.pInheritanceInfo = &outside;
-    require_success(NEARFIELD_HOST_CALL(vkBeginCommandBuffer)(commands_, &info),
-                    "vkBeginCommandBuffer");
+    begin_outside_passes(host_, commands_, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT);
     return commands_;
 }
 
