@@ -21,6 +21,9 @@ template <class Structure>
 [[nodiscard]] Structure read_versioned(const Structure& given, const char* name,
                                        std::initializer_list<std::size_t> ends) {
     static_assert(std::is_trivially_copyable_v<Structure>);
+    if (given.structure_size == sizeof(Structure)) {
+        return given;
+    }
     // Larger than any structure will ever be: such a size is an uninitialised member.
     constexpr std::size_t largest = 4096;
     const std::size_t size = given.structure_size;
@@ -32,7 +35,7 @@ template <class Structure>
     const bool is_older = std::find(ends.begin(), ends.end(), size) != ends.end();
     const bool is_newer =
         size > sizeof(Structure) && size <= largest && size % alignof(Structure) == 0;
-    if (size != sizeof(Structure) && !is_older && !is_newer) {
+    if (!is_older && !is_newer) {
         throw refuse("no version of nearfield has a " + std::string(name) +
                      " of that size; leave the member as it is (" +
                      std::to_string(sizeof(Structure)) + " here)");

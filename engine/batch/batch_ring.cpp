@@ -98,8 +98,7 @@ void BatchRing::trim() noexcept {
 }
 
 template <class Start>
-Ticket BatchRing::start_batch(const Batch& batch, Results* memory, const Start& start) {
-    const Stopwatch stopwatch;
+Ticket BatchRing::start_batch(const Batch& batch, Results* memory, Laps& laps, const Start& start) {
     last_ = nullptr;
     Frame& frame = free_frame();
     const double made = frame.runner.pipeline_milliseconds();
@@ -117,14 +116,24 @@ Ticket BatchRing::start_batch(const Batch& batch, Results* memory, const Start& 
     frame.number = ++last_number_;
     last_ = &frame;
     frame.runner.results().timings.total =
-        stopwatch.milliseconds() - (frame.runner.pipeline_milliseconds() - made);
+        laps.total() - (frame.runner.pipeline_milliseconds() - made);
     return {frame.number, shapes_->context()};
 }
 
-Ticket BatchRing::submit(const Batch& batch, const Submission& order, Results* memory) {
-    return start_batch(batch, memory, [&](Frame& frame, const plan::FindShape& find_shape) {
-        frame.runner.submit(batch.queries(), find_shape, order);
+Ticket BatchRing::submit(const Batch& batch, const Submission& order, Results* memory, Laps& laps) {
+    return start_batch(batch, memory, laps, [&](Frame& frame, const plan::FindShape& find_shape) {
+        frame.runner.submit(batch.queries(), find_shape, laps, order);
     });
+}
+
+Ticket BatchRing::submit(const Batch& batch, const Submission& order) {
+    Laps laps;
+    return submit(batch, order, nullptr, laps);
+}
+
+void BatchRing::run(const Batch& batch, Results& results) {
+    Laps laps;
+    collect(submit(batch, {}, &results, laps), results, laps);
 }
 
 void BatchRing::answer(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
@@ -133,8 +142,9 @@ void BatchRing::answer(std::span<const AnyQuery> queries, const plan::FindShape&
         cpu_runner_ = std::make_unique<BatchRunner>(planning_, nullptr);
     }
     std::swap(results, cpu_runner_->results());
-    cpu_runner_->submit(queries, find_shape);
-    cpu_runner_->collect();
+    Laps laps;
+    cpu_runner_->submit(queries, find_shape, laps);
+    cpu_runner_->collect(laps);
     std::swap(results, cpu_runner_->results());
 }
 
@@ -166,11 +176,12 @@ void BatchRing::begin_frame(const Recording& recording) {
 
 Ticket BatchRing::record(const Batch& batch, const Recording& recording) {
     begin_frame(recording);
-    return start_batch(batch, nullptr, [&](Frame& frame, const plan::FindShape& find_shape) {
+    Laps laps;
+    return start_batch(batch, nullptr, laps, [&](Frame& frame, const plan::FindShape& find_shape) {
         frame.host_frame = recording.frame;
         // Derived from the number that the ticket will have.
         const auto stamp = static_cast<std::uint32_t>((last_number_ + 1) % UINT32_MAX) + 1;
-        frame.runner.record(batch.queries(), find_shape, recording.commands, stamp);
+        frame.runner.record(batch.queries(), find_shape, laps, recording.commands, stamp);
     });
 }
 
@@ -205,7 +216,12 @@ bool BatchRing::is_ready(Ticket ticket) {
 }
 
 void BatchRing::collect(Ticket ticket, Results& results) {
-    const Stopwatch start;
+    Laps laps;
+    collect(ticket, results, laps);
+}
+
+void BatchRing::collect(Ticket ticket, Results& results, Laps& laps) {
+    const double begun = laps.total();
     Frame& frame = require(ticket);
     const double made = frame.runner.pipeline_milliseconds();
     if (frame.runner.submission_state() == render::SubmissionState::recorded &&
@@ -216,15 +232,18 @@ void BatchRing::collect(Ticket ticket, Results& results) {
                  ", which is not complete: Context::frame_completed() says when it is"});
     }
     try {
-        frame.runner.collect();
-        normals_.apply(frame.runner);
+        frame.runner.collect(laps);
+        if (!frame.runner.plan().with_gradient_normals.empty()) {
+            normals_.apply(frame.runner);
+            laps.next();
+        }
     } catch (...) {
         release(frame);
         throw;
     }
     std::swap(results, frame.runner.results());
     release(frame);
-    results.timings.total += start.milliseconds() - (frame.runner.pipeline_milliseconds() - made);
+    results.timings.total += laps.total() - begun - (frame.runner.pipeline_milliseconds() - made);
 }
 
 void BatchRing::list_tiles(std::vector<TileReport>& tiles) const {

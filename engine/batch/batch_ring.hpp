@@ -22,8 +22,11 @@ public:
               const JobSystem& jobs, render::Renderer* renderer, ShapeStore& shapes);
 
     /// Throws StatusException (ring_full) if the ring is full. After any StatusException nothing of
-    /// the batch remains. `memory`, if given, is swapped for results that the batch does not need.
-    Ticket submit(const Batch& batch, const Submission& order, Results* memory = nullptr);
+    /// the batch remains.
+    Ticket submit(const Batch& batch, const Submission& order);
+    /// Both halves: writes the results, in whose memory they are made. Throws as submit() and
+    /// collect(); nothing of the batch remains then.
+    void run(const Batch& batch, Results& results);
     /// The same, recorded into a command buffer of the host. Throws as begin_frame() too.
     Ticket record(const Batch& batch, const Recording& recording);
     /// Precedes all that is recorded for the host, and implies that the device has finished all
@@ -109,9 +112,12 @@ private:
         return resident;
     }
     [[nodiscard]] bool is_ready(Frame& frame) const;
-    /// Calls `start(runner, find_shape)` to start a batch in a free frame.
+    /// Calls `start(frame, find_shape)` to start a batch in a free frame.
+    /// `memory`, if given, is swapped for results that the batch does not need.
     template <class Start>
-    Ticket start_batch(const Batch& batch, Results* memory, const Start& start);
+    Ticket start_batch(const Batch& batch, Results* memory, Laps& laps, const Start& start);
+    Ticket submit(const Batch& batch, const Submission& order, Results* memory, Laps& laps);
+    void collect(Ticket ticket, Results& results, Laps& laps);
     [[nodiscard]] Status already_complete(std::uint64_t host_frame) const;
 
     ShapeStore* shapes_;

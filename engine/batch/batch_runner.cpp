@@ -95,13 +95,12 @@ void BatchRunner::plan_batch(plan::Submissions submissions) {
 
 /// Everything up to the recording of tile batches.
 void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
-                        plan::Submissions submissions) {
+                        plan::Submissions submissions, Laps& laps) {
     if (submission_state() == render::SubmissionState::submitted) {
         slot_->wait();  // for a batch that failed half-way
     }
     late_failure_ = nullptr;
     Timings& timings = results_.timings;
-    const Stopwatch start;
     begin_timings(queries.size());
     queries_.assign(queries.begin(), queries.end());
     if (submissions == plan::Submissions::one) {
@@ -109,7 +108,7 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     }
     plan::find_shapes(queries_, find_shape, shapes_);
     plan_batch(submissions);
-    timings.plan += start.milliseconds() - timings.localize;
+    timings.plan += laps.next() - timings.localize;
     if (has_device_work()) {
         const render::SampleRoom room = submissions == plan::Submissions::one
                                             ? render::SampleRoom::all
@@ -119,11 +118,13 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
         renderer_->prepare_searches(planning_->searches.shapes(),
                                     std::span(searches_).first(search_count_), room, *slot_,
                                     timings);
+        laps.next();
     }
 }
 
 void BatchRunner::reserve(std::span<const AnyQuery> queries, const plan::FindShape& find_shape) {
-    begin(queries, find_shape, plan::Submissions::any);
+    Laps laps;
+    begin(queries, find_shape, plan::Submissions::any, laps);
     if (slot_ != nullptr) {
         slot_->release();
     }
@@ -140,38 +141,39 @@ bool BatchRunner::has_device_work() const {
     return plan_.tile_batches > 0 || search_count_ > 0 || !resident_.empty();
 }
 
-void BatchRunner::answer_on_cpu() {
-    const Stopwatch start;
+void BatchRunner::answer_on_cpu(Laps& laps) {
     decoder_.answer_on_cpu(plan_, results_.results);
-    results_.timings.decode += start.milliseconds();
+    results_.timings.decode += laps.next();
 }
 
 void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
-                         const Submission& order) {
-    begin(queries, find_shape, plan::Submissions::any);
+                         Laps& laps, const Submission& order) {
+    begin(queries, find_shape, plan::Submissions::any, laps);
     if (has_device_work()) {
         renderer_->submit(*slot_, order, results_.timings);
         submitted_ = {};
         device_milliseconds_.reset();
+        laps.next();
     } else if (slot_ != nullptr) {
         slot_->submit_semaphores(order);
     }
     // A failure after the submission must still be reported to the host, since semaphores will be
     // signalled.
     try {
-        answer_on_cpu();
+        answer_on_cpu(laps);
     } catch (...) {
         late_failure_ = std::current_exception();
     }
 }
 
 void BatchRunner::record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
-                         VkCommandBuffer commands, std::uint32_t stamp) {
-    begin(queries, find_shape, plan::Submissions::one);
-    answer_on_cpu();
+                         Laps& laps, VkCommandBuffer commands, std::uint32_t stamp) {
+    begin(queries, find_shape, plan::Submissions::one, laps);
+    answer_on_cpu(laps);
     if (has_device_work()) {
         renderer_->record(*slot_, commands, stamp, results_.timings);
         device_milliseconds_ = 0.0;  // only the host knows
+        laps.next();
     }
 }
 
@@ -243,11 +245,11 @@ void BatchRunner::wait() {
 }
 
 /// Waits for the device and reads what it wrote, as often as it has to be submitted.
-void BatchRunner::read_back() {
+void BatchRunner::read_back(Laps& laps) {
     Timings& timings = results_.timings;
     while (submission_state() != render::SubmissionState::none) {
         wait();
-        const Stopwatch start;
+        laps.next();
         for (const std::uint32_t number : slot_->running()) {
             if (slot_->tile_batch(number).had_room()) {
                 checkpoint();
@@ -261,18 +263,19 @@ void BatchRunner::read_back() {
                                    slot_->search(number).depths(), plan_);
             }
         }
-        timings.decode += start.milliseconds();
+        timings.decode += laps.next();
         if (renderer_->submit_those_without_room(*slot_, timings)) {
             submitted_ = {};
             device_milliseconds_.reset();
+            laps.next();
         }
     }
 }
 
-void BatchRunner::collect() {
+void BatchRunner::collect(Laps& laps) {
     Timings& timings = results_.timings;
     try {
-        read_back();
+        read_back(laps);
     } catch (const Interrupted&) {
         // Below, the queries whose results were not all read say so.
     }
@@ -282,9 +285,8 @@ void BatchRunner::collect() {
     if (late_failure_) {
         std::rethrow_exception(std::exchange(late_failure_, nullptr));
     }
-    const Stopwatch start;
     decoder_.finish(plan_, results_.results);
-    timings.decode += start.milliseconds();
+    timings.decode += laps.next();
     std::erase_if(timings.passes, [](const PassTime& pass) { return pass.milliseconds < 0.0; });
     time_device();
 }

@@ -54,13 +54,14 @@ public:
     /// Copies the queries, selects their techniques, plans them and submits their tile batches with
     /// the semaphores of `order`; if nothing is rendered, only the semaphores, if any. Then answers
     /// the CPU's queries while the device is working; errors there are reported by collect(). Does
-    /// not wait, except for a batch that an exception left on the device.
-    void submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+    /// not wait, except for a batch that an exception left on the device. `laps`: begun with the
+    /// call; each part that takes time ends one.
+    void submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape, Laps& laps,
                 const Submission& order = {});
     /// The same, but records the tile batches into a command buffer of the host, as the last step:
     /// if it throws, nothing was recorded. A query that needs a second submission is rejected in
     /// its own result. `stamp`: see BatchResources::end_recording().
-    void record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+    void record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape, Laps& laps,
                 VkCommandBuffer commands, std::uint32_t stamp);
 
     /// Reserves the device memory of such a batch and starts nothing: its resident outputs are
@@ -81,7 +82,7 @@ public:
     /// Waits for the device and writes the results; recorded commands have to be done. Gradient
     /// normals of contacts are left to GradientNormals. If the call ends before, the results that
     /// are not done say so.
-    void collect();
+    void collect(Laps& laps);
 
     /// The resident outputs of a query, after submit(). Throws a StatusException that names the
     /// reason if there are none.
@@ -107,10 +108,10 @@ public:
 
 private:
     void begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
-               plan::Submissions submissions);
+               plan::Submissions submissions, Laps& laps);
     void keep_off_the_device();
     [[nodiscard]] bool has_device_work() const;
-    void answer_on_cpu();
+    void answer_on_cpu(Laps& laps);
     void begin_timings(std::size_t queries);
     void time_device();
     [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
@@ -118,7 +119,7 @@ private:
     void build_tile_batches();
     void plan_batch(plan::Submissions submissions);
     void wait();
-    void read_back();
+    void read_back(Laps& laps);
     void decode(std::uint32_t number);
     template <class Query>
     void require_resident(QueryHandle<Query> handle) const;

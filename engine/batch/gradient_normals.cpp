@@ -100,10 +100,12 @@ void GradientNormals::set_normals(const plan::PlannedQuery& planned, ContactResu
     }
     add_fields(std::get<ContactQuery>(*planned.query), result.cell);
     // Use B as it was submitted, whatever it is now.
-    runner_.submit(queries_, [&planned](ShapeHandle shape) {
+    const auto find_shape = [&planned](ShapeHandle shape) {
         return shape == ShapeHandle{} ? nullptr : planned.b;
-    });
-    runner_.collect();
+    };
+    Laps laps;
+    runner_.submit(queries_, find_shape, laps);
+    runner_.collect(laps);
     const Results& fields = runner_.results();
     timings.localize += fields.timings.localize;
     timings.plan += fields.timings.plan;

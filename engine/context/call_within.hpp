@@ -9,15 +9,24 @@
 
 namespace nearfield {
 
+/// Whether a call with these limits may end early, or report how far it is.
+[[nodiscard]] inline bool limits_anything(const Limits& limits) {
+    return limits.cancel != nullptr || limits.progress != nullptr ||
+           limits.seconds != std::numeric_limits<double>::infinity();
+}
+
 /// Calls `action`, which returns a Status or an Expected, within the limits of a call; returns the
 /// same, or the error of limits that cannot be used.
 template <class Action>
 auto call_within(const Limits& limits, const Action& action) -> decltype(action()) {
+    if (limits.structure_size == sizeof(Limits) && !limits_anything(limits)) {
+        const InterruptionScope scope(nullptr);
+        return action();
+    }
     std::optional<Interruption> interruption;
     Status status = catch_to_status([&] {
         const Limits own = read_versioned(limits);
-        if (own.cancel != nullptr || own.progress != nullptr ||
-            own.seconds != std::numeric_limits<double>::infinity()) {
+        if (limits_anything(own)) {
             interruption.emplace(own);
         }
     });

@@ -124,15 +124,12 @@ Expected<std::span<const InstancePair>> Context::find_pairs(std::span<const Inst
 }
 
 Status Context::run(const Batch& batch, Results& results, const Limits& limits) {
-    return call_within(limits, [&] {
-        const Expected<Ticket> ticket = implementation_->submit(batch, {}, &results);
-        return ticket.has_value() ? implementation_->collect(*ticket, results) : ticket.error();
-    });
+    return call_within(limits, [&] { return implementation_->run(batch, results); });
 }
 
 Expected<Ticket> Context::submit(const Batch& batch, const Submission& submission,
                                  const Limits& limits) {
-    return call_within(limits, [&] { return implementation_->submit(batch, submission, nullptr); });
+    return call_within(limits, [&] { return implementation_->submit(batch, submission); });
 }
 
 Expected<Ticket> Context::record(const Batch& batch, const Recording& recording,

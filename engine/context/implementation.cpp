@@ -161,8 +161,11 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
     return std::span<const InstancePair>(instance_pairs_);
 }
 
-Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submission& submission,
-                                                 Results* memory) {
+Status Context::Implementation::run(const Batch& batch, Results& results) {
+    return unless_lost([&] { machinery_->ring.run(batch, results); });
+}
+
+Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submission& submission) {
     Ticket ticket;
     Status status = unless_lost([&] {
         const Submission order = read_versioned(submission);
@@ -171,7 +174,7 @@ Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submi
         } else if (!order.waits.empty() || !order.signals.empty()) {
             throw StatusException(no_device("submit with semaphores"));
         }
-        ticket = machinery_->ring.submit(batch, order, memory);
+        ticket = machinery_->ring.submit(batch, order);
     });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }

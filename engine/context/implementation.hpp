@@ -56,7 +56,8 @@ public:
 
     Expected<std::span<const InstancePair>> find_pairs(std::span<const Instance> instances,
                                                        double reach);
-    Expected<Ticket> submit(const Batch& batch, const Submission& submission, Results* memory);
+    Status run(const Batch& batch, Results& results);
+    Expected<Ticket> submit(const Batch& batch, const Submission& submission);
     Expected<Ticket> record(const Batch& batch, const Recording& recording);
     void frame_completed(std::uint64_t frame) { machinery_->ring.complete(frame); }
     /// Whether what was recorded for the host's frame need not be waited for.

@@ -52,8 +52,7 @@ void World::Implementation::add_candidate(const ShapeCastQuery& query, const Swe
 }
 
 void World::Implementation::run_batch() {
-    const Expected<Ticket> ticket = context_->submit(batch_, {}, &results_);
-    Status status = ticket ? context_->collect(*ticket, results_) : ticket.error();
+    Status status = context_->run(batch_, results_);
     if (!status.ok()) {
         throw StatusException(status);
     }

@@ -13,6 +13,9 @@ void AtlasPacker::clear() {
 
 void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlace>& places) {
     places.resize(tiles.size());
+    if (tiles.empty()) {
+        return;
+    }
     order_.resize(tiles.size());
     std::iota(order_.begin(), order_.end(), 0U);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
@@ -31,7 +34,7 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
         std::min(std::ceil(std::sqrt(cells) * 1.1), static_cast<double>(largest_side_));
     const std::uint32_t shelf_width = std::max(widest, static_cast<std::uint32_t>(side));
 
-    tile_batches_ += tiles.empty() ? 0U : 1U;
+    ++tile_batches_;
     std::uint32_t x = 0;
     std::uint32_t y = 0;
     std::uint32_t shelf_height = 0;

@@ -1,29 +1,38 @@
 #include <engine/plan/query_shapes.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace nearfield::plan {
+namespace {
+
+/// A shape that has been looked up.
+struct KnownShape {
+    ShapeHandle handle;  // initially the null handle
+    const geometry::Polygon* polygon = nullptr;
+};
+
+}  // namespace
 
 void find_shapes(std::span<const AnyQuery> queries, const FindShape& find_shape,
                  std::vector<QueryShapes>& shapes) {
     shapes.resize(queries.size());
-    // Callers with many pairs often query both directions, or all pairs of one shape in turn, so
-    // most shapes are those of the query before. Initially the null handle.
-    ShapeHandle last_a;
-    ShapeHandle last_b;
-    QueryShapes last;
+    // Callers with many pairs query both directions, or pairs of shapes near each other in turn, so
+    // most shapes are those of few queries before.
+    std::array<KnownShape, 16> known;  // by the low bits of the index
     const auto find = [&](ShapeHandle shape) {
-        return shape == last_a ? last.a : shape == last_b ? last.b : find_shape(shape);
+        KnownShape& place = known[shape.index % known.size()];
+        if (place.handle != shape) {
+            place = {shape, find_shape(shape)};
+        }
+        return place.polygon;
     };
     std::transform(queries.begin(), queries.end(), shapes.begin(), [&](const AnyQuery& any) {
-        std::visit(
+        return std::visit(
             [&](const auto& query) {
-                last = {find(query.a.shape), find(query.b.shape)};
-                last_a = query.a.shape;
-                last_b = query.b.shape;
+                return QueryShapes{find(query.a.shape), find(query.b.shape)};
             },
             any);
-        return last;
     });
 }
 
