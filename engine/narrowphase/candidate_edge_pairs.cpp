@@ -1,6 +1,12 @@
 #include <engine/narrowphase/candidate_edge_pairs.hpp>
 
 namespace nearfield::narrowphase {
+namespace {
+
+/// This few edges are compared with all of the other shape, which is faster than to select those.
+constexpr std::uint32_t few_edges = 4;
+
+}  // namespace
 
 bool CandidateEdgePairs::find_all(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                   std::vector<simd::EdgePair>& pairs) {
@@ -27,8 +33,9 @@ bool CandidateEdgePairs::pick_near(const simd::TransformedEdges& a, const simd::
     const simd::Extent common =
         geometry::extent_of(geometry::grown(a.box.intersection(b.box), grow));
     of_a_.pick(a, common);
-    if (of_a_.empty()) {
-        return false;
+    of_b_.clear();
+    if (of_a_.size() <= few_edges) {
+        return !of_a_.empty();
     }
     of_b_.pick(b, common);
     return !of_b_.empty();

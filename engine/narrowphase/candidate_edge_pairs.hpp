@@ -35,10 +35,12 @@ private:
             return false;
         }
         const simd::EdgeArrays picked_a = of_a_.edges();
-        const simd::EdgeArrays picked_b = of_b_.edges();
+        const simd::EdgeArrays all_of_b = b;
+        const simd::EdgeArrays others = of_b_.empty() ? all_of_b : of_b_.edges();
         simd::EdgePair pair;
-        while (simd::kernels::find_intersecting_pair(picked_a, picked_b, margin, pair)) {
-            if (!use(simd::EdgePair{of_a_.index(pair.first), of_b_.index(pair.second)})) {
+        while (simd::kernels::find_intersecting_pair(picked_a, others, margin, pair)) {
+            const std::uint32_t other = of_b_.empty() ? pair.second : of_b_.index(pair.second);
+            if (!use(simd::EdgePair{of_a_.index(pair.first), other})) {
                 return true;
             }
             ++pair.second;
@@ -56,7 +58,8 @@ private:
                                                   {pass_on, &use});
     }
 
-    /// Selects the edges that lie in both boxes, grown by `grow`; false if either shape has none.
+    /// Selects the edges of A, and if they are several those of B, that lie in both boxes, grown by
+    /// `grow`; false if either selection is empty.
     [[nodiscard]] bool pick_near(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                  double grow);
 

@@ -13,7 +13,10 @@ public:
     /// Selects the edges whose boxes intersect a box.
     void pick(const TransformedEdges& from, const Extent& box);
 
+    void clear() { count_ = 0; }
+
     [[nodiscard]] bool empty() const { return count_ == 0; }
+    [[nodiscard]] std::uint32_t size() const { return count_; }
     /// Precondition: not empty.
     [[nodiscard]] EdgeArrays edges() const;
     /// The edge's index in the polygon.

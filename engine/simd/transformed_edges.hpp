@@ -114,6 +114,9 @@ private:
     [[nodiscard]] std::size_t slot_of(const geometry::Polygon& polygon, const Pose& pose) const;
     [[nodiscard]] static bool is(const Entry& entry, const geometry::Polygon& polygon,
                                  const Pose& pose);
+    /// The same for the entry of an index, if there is one that place() may find.
+    [[nodiscard]] bool is_at(std::uint32_t index, const geometry::Polygon& polygon,
+                             const Pose& pose) const;
     [[nodiscard]] std::uint32_t find_or_add(const geometry::Polygon& polygon, const Pose& pose);
     void add(const geometry::TransformedPolygon& placed, const Pose& pose, bool is_nameless);
     /// The number of vectors that the arrays of an entry take, and its boxes, once it has pieces.
@@ -143,6 +146,10 @@ private:
     Memory shared_;
     std::vector<std::unique_ptr<Memory>> spare_;  // of former entries
     MortonOrder morton_order_;
+    // What each call of place() with a polygon and a pose returned, in this batch or, where it has
+    // not come that far, in the one before: a batch often asks about the same pairs again.
+    std::vector<std::uint32_t> found_;
+    std::size_t calls_ = 0;                  // in this batch
     std::array<std::uint32_t, 2> recent_{};  // most recent indices: pairs come in both orders
     std::vector<std::uint32_t> slots_;       // a hash table of entries; its size is a power of two
 };
