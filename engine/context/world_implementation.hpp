@@ -3,6 +3,7 @@
 #include <engine/base/jobs.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/context/job_lists.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
 #include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
 #include <engine/world/nearest_queries.hpp>
@@ -33,6 +34,8 @@ public:
     [[nodiscard]] std::uint32_t size() const { return instances_.count(); }
 
     void test_poses(const PoseTestQuery& query, std::span<const Pose> poses,
+                    std::span<std::uint8_t> intersects);
+    void test_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
                     std::span<std::uint8_t> intersects);
     void find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
                          std::span<Clearance> clearances);
@@ -78,6 +81,7 @@ private:
         world::ShapeEdgeQueries edges;
         world::RayQueries rays;
         world::OverlapQueries overlaps;
+        narrowphase::OverlapTest overlap_test;
         std::vector<std::uint32_t> found;
     };
     /// What a query of the batch is about: a sweep or a pair by its number, and an instance.

@@ -77,8 +77,7 @@ void BoxHierarchy::remove(std::uint32_t name) {
 }
 
 void BoxHierarchy::prepare() {
-    constexpr double too_large = 2.0;
-    if (levels_.empty() || size_ > too_large * size_when_built_) {
+    if (is_outdated()) {
         try {
             build();
         } catch (...) {

@@ -24,6 +24,11 @@ public:
     /// Adds a box, or replaces the one of that name. An empty box is never found.
     void set(std::uint32_t name, const geometry::Box& box);
     void remove(std::uint32_t name);
+    /// Whether to order the boxes pays.
+    [[nodiscard]] bool is_outdated() const {
+        constexpr double too_large = 2.0;
+        return levels_.empty() || size_ > too_large * size_when_built_;
+    }
     /// Orders the boxes, if that pays. Searches do not change the tree, so several threads may
     /// search it at the same time.
     void prepare();

@@ -20,14 +20,8 @@ void Instances::require_own(InstanceHandle handle, const char* call) const {
     }
 }
 
-std::uint32_t Instances::find(InstanceHandle handle, const char* call) const {
+void Instances::refuse(InstanceHandle handle, const char* call) const {
     require_own(handle, call);
-    if (handle.index < entries_.size()) {
-        const Entry& entry = entries_[handle.index];
-        if (entry.present && entry.generation == handle.generation) {
-            return handle.index;
-        }
-    }
     throw StatusException(
         {StatusCode::unknown_instance, std::string(call) + ": the instance of index " +
                                            std::to_string(handle.index) +
@@ -42,7 +36,7 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
             changes_.reserve(2 * entries_.size() + 8);  // for all, so that changes never fail
         }
         if (kept_.size() == entries_.size()) {
-            kept_.emplace_back();
+            kept_.push_back(std::make_unique<Kept>());
         }
         numbers_.resize(kept_.size());
         changed_.resize(kept_.size());
@@ -56,7 +50,7 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
     entry.instance = instance;
     entry.present = true;
     numbers_[index] = next_number_++;
-    kept_[index].polygon = nullptr;
+    kept_[index]->polygon = nullptr;
     ++count_;
     ++membership_;
     return {index, entry.generation, world_};
@@ -89,17 +83,17 @@ void Instances::remove(std::uint32_t index) {
     Entry& entry = entries_[index];
     entry.present = false;
     ++entry.generation;
-    kept_[index].has_edges = false;
+    kept_[index]->has_edges = false;
     boxes_.remove(index);
     --count_;
     ++membership_;
 }
 
-void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revision) {
+void Instances::take_in_changes(const FindShape& find_shape, std::uint64_t shapes_revision) {
     if (shapes_revision_ != shapes_revision) {
         for (std::uint32_t i = 0; i < entries_.size(); ++i) {
             const Entry& entry = entries_[i];
-            const Kept& kept = kept_[i];
+            const Kept& kept = *kept_[i];
             const geometry::Polygon* const polygon =
                 entry.present ? find_shape(entry.instance.shape) : nullptr;
             if (entry.present && (polygon != kept.polygon ||
@@ -115,7 +109,7 @@ void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revisi
     for (const std::uint32_t i : changes_) {
         const Entry& entry = entries_[i];
         if (entry.present) {
-            kept_[i].polygon = find_shape(entry.instance.shape);
+            kept_[i]->polygon = find_shape(entry.instance.shape);
             changed_[i] = last_change_;
             place(i);
         }
@@ -128,7 +122,7 @@ void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revisi
 }
 
 void Instances::place(std::uint32_t index) {
-    Kept& kept = kept_[index];
+    Kept& kept = *kept_[index];
     kept.has_edges = false;
     if (kept.polygon == nullptr) {
         boxes_.remove(index);
@@ -144,7 +138,7 @@ void Instances::place(std::uint32_t index) {
 
 void Instances::make_edges(std::uint32_t index) const {
     const std::lock_guard lock(making_edges_);
-    const Kept& kept = kept_[index];
+    const Kept& kept = *kept_[index];
     if (kept.has_edges.load(std::memory_order_relaxed)) {
         return;
     }
@@ -158,20 +152,20 @@ void Instances::make_edges(std::uint32_t index) const {
 
 std::size_t Instances::bytes() const {
     std::size_t bytes = sizeof(Entry) * entries_.capacity() + sizeof(Kept) * kept_.size() +
-                        boxes_.bytes() +
+                        sizeof(kept_.front()) * kept_.capacity() + boxes_.bytes() +
                         sizeof(std::uint32_t) * (free_.capacity() + changes_.capacity()) +
                         sizeof(std::uint64_t) * (numbers_.capacity() + changed_.capacity());
-    for (const Kept& kept : kept_) {
-        bytes += kept.edges.bytes();
+    for (const std::unique_ptr<Kept>& kept : kept_) {
+        bytes += kept->edges.bytes();
     }
     return bytes;
 }
 
 void Instances::trim() {
     boxes_.trim();
-    for (Kept& kept : kept_) {
-        kept.edges = {};
-        kept.has_edges = false;
+    for (const std::unique_ptr<Kept>& kept : kept_) {
+        kept->edges = {};
+        kept->has_edges = false;
     }
 }
 

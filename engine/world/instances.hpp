@@ -2,6 +2,8 @@
 
 #include <engine/base/unique_numbers.hpp>
 #include <engine/geometry/polygon.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
 #include <engine/simd/transformed_edges.hpp>
 #include <engine/world/box_hierarchy.hpp>
 #include <nearfield/world.hpp>
@@ -9,7 +11,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -36,7 +38,14 @@ public:
     /// Fails (unknown_instance) if the handle is of another world. `call`: for the message.
     void require_own(InstanceHandle handle, const char* call) const;
     /// Fails (unknown_instance) if there is no such instance. `call`: for the message.
-    [[nodiscard]] std::uint32_t find(InstanceHandle handle, const char* call) const;
+    [[nodiscard]] std::uint32_t find(InstanceHandle handle, const char* call) const {
+        if (handle.world != world_ || handle.index >= entries_.size() ||
+            !entries_[handle.index].present ||
+            entries_[handle.index].generation != handle.generation) {
+            refuse(handle, call);
+        }
+        return handle.index;
+    }
     [[nodiscard]] InstanceHandle add(const WorldInstance& instance);
     void move(std::uint32_t index, const Pose& pose);
     void set_filter(std::uint32_t index, std::uint32_t category, std::uint32_t mask);
@@ -61,7 +70,11 @@ public:
 
     /// Takes in what has changed since the last call. `shapes_revision`: changes whenever any shape
     /// does.
-    void prepare(const FindShape& find_shape, std::uint64_t shapes_revision);
+    void prepare(const FindShape& find_shape, std::uint64_t shapes_revision) {
+        if (shapes_revision_ != shapes_revision || !changes_.empty() || boxes_.is_outdated()) {
+            take_in_changes(find_shape, shapes_revision);
+        }
+    }
 
     // The following hold between prepare() and the next change.
 
@@ -81,23 +94,23 @@ public:
     }
     /// True if there is an instance and its shape exists.
     [[nodiscard]] bool is_placed(std::uint32_t index) const {
-        return entries_[index].present && kept_[index].polygon != nullptr;
+        return entries_[index].present && kept_[index]->polygon != nullptr;
     }
     /// The order in which instances were added.
     [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return numbers_[index]; }
     /// Changes with the pose, the shape's rings and the filter: larger than at any earlier time.
     [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return changed_[index]; }
     [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
-    [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return kept_[index].box; }
+    [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return kept_[index]->box; }
     /// Of its transformed vertices: localize::placement_rounding.
-    [[nodiscard]] double rounding(std::uint32_t index) const { return kept_[index].rounding; }
+    [[nodiscard]] double rounding(std::uint32_t index) const { return kept_[index]->rounding; }
     [[nodiscard]] double deviation(std::uint32_t index) const {
-        return kept_[index].polygon->deviation();
+        return kept_[index]->polygon->deviation();
     }
     /// The largest of all instances.
     [[nodiscard]] double max_rounding() const { return max_rounding_; }
     [[nodiscard]] const geometry::Polygon& polygon(std::uint32_t index) const {
-        return *kept_[index].polygon;
+        return *kept_[index]->polygon;
     }
     /// Its complete edges, in world coordinates.
     [[nodiscard]] const simd::TransformedEdges& edges(std::uint32_t index) const {
@@ -106,6 +119,16 @@ public:
     /// The boxes over them.
     [[nodiscard]] const simd::AabbTree& tree(std::uint32_t index) const {
         return *with_edges(index).tree;
+    }
+
+    /// Whether two instances share a point. `a` and `b`: as find() returned them.
+    [[nodiscard]] bool intersect(std::uint32_t a, std::uint32_t b,
+                                 narrowphase::OverlapTest& test) const {
+        const Kept& one = *kept_[a];
+        const Kept& other = *kept_[b];
+        return one.polygon != nullptr && other.polygon != nullptr &&
+               localize::boxes_meet(one.box, other.box, one.rounding + other.rounding) &&
+               test.intersect(edges(a), edges(b));
     }
 
     [[nodiscard]] std::size_t bytes() const;
@@ -132,8 +155,9 @@ private:
         mutable std::atomic<bool> has_edges = false;
     };
 
+    [[noreturn]] void refuse(InstanceHandle handle, const char* call) const;
     [[nodiscard]] const Kept& with_edges(std::uint32_t index) const {
-        const Kept& kept = kept_[index];
+        const Kept& kept = *kept_[index];
         if (!kept.has_edges.load(std::memory_order_acquire)) {
             make_edges(index);
         }
@@ -141,12 +165,13 @@ private:
     }
     void make_edges(std::uint32_t index) const;
 
+    void take_in_changes(const FindShape& find_shape, std::uint64_t shapes_revision);
     void note_change(std::uint32_t index);
     void place(std::uint32_t index);
 
     std::uint32_t world_ = next_owner_number();
     std::vector<Entry> entries_;
-    std::deque<Kept> kept_;  // which stay where they are
+    std::vector<std::unique_ptr<Kept>> kept_;  // which stay where they are
     // In one piece each, since tables of pairs look at all of them: the order in which instances
     // were added, and their last change.
     std::vector<std::uint64_t> numbers_;

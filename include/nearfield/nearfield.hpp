@@ -26,3 +26,4 @@
 #include <nearfield/world.hpp>
 #include <nearfield/world_device.hpp>
 #include <nearfield/world_pairs.hpp>
+#include <nearfield/world_queries.hpp>

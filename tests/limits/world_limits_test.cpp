@@ -50,6 +50,13 @@ public:
         numbers.assign(hits.begin(), hits.end());
         return status;
     }
+    Status test_pairs(const Limits& limits, Numbers& numbers) {
+        std::vector<std::uint8_t> hits(instances_.size() - 1);
+        const std::span<const InstanceHandle> all(instances_);
+        Status status = world_.test_pairs(all.first(hits.size()), all.subspan(1), hits, limits);
+        numbers.assign(hits.begin(), hits.end());
+        return status;
+    }
     Status find_clearances(const Limits& limits, Numbers& numbers) {
         std::vector<Clearance> clearances(poses_.size());
         ClearanceQuery query;
@@ -210,6 +217,7 @@ std::vector<NamedQuery> all_queries() {
     impact.tolerance = 1e-3;
     return {
         {"test_poses", &Stars::test_poses},
+        {"test_pairs", &Stars::test_pairs},
         {"find_clearances", &Stars::find_clearances},
         {"find_nearest", &Stars::find_nearest},
         {"find_nearest of a shape", &Stars::find_nearest_of_shape},

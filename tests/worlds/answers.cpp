@@ -212,6 +212,23 @@ void Answers::ask_impacts(World& world, PairTable<TimeOfImpactQuery>& table,
     }
 }
 
+void Answers::ask_pairs(World& world, std::span<const InstanceHandle> instances) {
+    std::vector<InstanceHandle> a;
+    std::vector<InstanceHandle> b;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        for (std::size_t j = i + 1; j < std::min(i + 4, instances.size()); ++j) {
+            a.push_back(instances[i]);
+            b.push_back(instances[j]);
+        }
+    }
+    std::vector<std::uint8_t> intersects(a.size());
+    if (note(world.test_pairs(a, b, intersects), "test_pairs")) {
+        for (const std::uint8_t each : intersects) {
+            add(static_cast<double>(each));
+        }
+    }
+}
+
 void Answers::ask_overlaps(World& world, ShapeHandle shape, const Questions& questions) {
     InstanceLists lists;
     if (note(world.find_overlaps(questions.rectangles, lists, questions.filter),

@@ -49,6 +49,9 @@ public:
     void ask_impacts(World& world, PairTable<TimeOfImpactQuery>& table,
                      std::span<const InstanceHandle> moving, std::span<const Pose> ends);
 
+    /// Asks whether each instance shares a point with those that follow it in the list.
+    void ask_pairs(World& world, std::span<const InstanceHandle> instances);
+
     [[nodiscard]] const Status& status() const { return status_; }
     /// Empty if both have the same bits, otherwise the first difference.
     [[nodiscard]] std::string difference_from(const Answers& other) const;

@@ -325,6 +325,8 @@ std::string History::compare() {
     });
     kept.ask(*world_, asked_shape_, questions);
     fresh.ask(world, asked, questions);
+    kept.ask_pairs(*world_, present_handles);
+    fresh.ask_pairs(world, handles);
     const Motions kept_motions = motions_of(present, present_handles);
     const Motions fresh_motions = motions_of(present, handles);
     kept.ask_impacts(*world_, *impacts_, kept_motions.moving, kept_motions.ends);

@@ -125,6 +125,12 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
             return c.scene.world().test_poses({c.item}, c.questions.poses, out);
         },
         [](Changed& c) {
+            const InstanceHandle a[] = {c.scene.handle(0), c.scene.handle(2)};
+            const InstanceHandle b[] = {c.scene.handle(1), c.scene.handle(3)};
+            std::vector<std::uint8_t> out(2);
+            return c.scene.world().test_pairs(a, b, out);
+        },
+        [](Changed& c) {
             std::vector<Clearance> out(c.questions.poses.size());
             return c.scene.world().find_clearances({c.item}, c.questions.poses, out);
         },
@@ -262,6 +268,7 @@ public:
             poses_.push_back(scene_.placements()[i].pose);
         }
         intersects_.resize(questions_.poses.size());
+        of_pairs_.resize(handles_.size() - 1);
         clearances_.resize(questions_.poses.size());
         nearest_.resize(3 * questions_.points.size());
         hits_.resize(questions_.segments.size());
@@ -303,6 +310,8 @@ private:
         NearestQuery three;
         three.count = 3;
         ASSERT_TRUE(world.test_poses({item_}, questions_.poses, intersects_).ok());
+        const std::span<const InstanceHandle> all(handles_);
+        ASSERT_TRUE(world.test_pairs(all.subspan(1), all.first(of_pairs_.size()), of_pairs_).ok());
         ASSERT_TRUE(world.find_clearances({item_}, questions_.poses, clearances_).ok());
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
         ASSERT_TRUE(world.find_nearest({item_, {}, 3}, questions_.poses, nearest_of_item_).ok());
@@ -327,6 +336,7 @@ private:
     std::vector<Pose> ends_;
     std::optional<PairTable<TimeOfImpactQuery>> impacts_;
     std::vector<std::uint8_t> intersects_;
+    std::vector<std::uint8_t> of_pairs_;
     std::vector<Clearance> clearances_;
     std::vector<NearestHit> nearest_;
     std::vector<Clearance> nearest_of_item_;

@@ -218,6 +218,10 @@ TEST_F(WorldRefusals, OfInstancesThatAreNotThere) {
         expect(world().set_filter(handle, 2, 2), code, "set_filter");
         expect(world().remove(handle), code, "remove");
         expect(world().instance(handle).error(), code, "instance");
+        const InstanceHandle good[] = {scene_.handle(0), scene_.handle(1)};
+        std::vector<std::uint8_t> intersects(2);
+        expect(world().test_pairs(both, good, intersects), code, "test_pairs");
+        expect(world().test_pairs(good, both, intersects), code, "test_pairs");
     }
 }
 
@@ -232,6 +236,8 @@ TEST_F(WorldRefusals, OfHandlesOfAnotherWorld) {
     expect(world().set_filter(foreign, 2, 2), code, "set_filter" + words);
     expect(world().remove(foreign), code, "remove" + words);
     expect(world().instance(foreign).error(), code, "instance" + words);
+    std::vector<std::uint8_t> pairs(1);
+    expect(world().test_pairs({&foreign, 1}, {&foreign, 1}, pairs), code, "test_pairs" + words);
     // The shapes of another context, in a world of this one.
     expect(world().add({other.add_shape(rectangle({0, 0}, {1, 1})), {}}).error(),
            StatusCode::unknown_shape, "is of another context");
@@ -267,6 +273,7 @@ TEST_F(WorldRefusals, NothingIsAskedOfNothing) {
     InstanceLists lists;
     EXPECT_TRUE(world().move(std::span<const InstanceHandle>(), {}).ok());
     EXPECT_TRUE(world().test_poses({item_}, {}, {}).ok());
+    EXPECT_TRUE(world().test_pairs({}, {}, {}).ok());
     EXPECT_TRUE(world().find_clearances({item_}, {}, {}).ok());
     EXPECT_TRUE(world().find_nearest(NearestQuery{}, {}, {}).ok());
     EXPECT_TRUE(world().find_nearest(ShapeNearestQuery{item_}, {}, {}).ok());

@@ -1,0 +1,201 @@
+#pragma once
+
+#include <nearfield/result.hpp>
+#include <nearfield/shape.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+/// \file
+/// Instances of a world, and what its queries are asked and answer (world.hpp). One entry each; of
+/// many, a caller has a flat array.
+
+namespace nearfield {
+
+/// Names an instance of one world. The default value names none. A handle of another world, or of
+/// an instance that was removed, is refused (unknown_instance).
+struct InstanceHandle {
+    std::uint32_t index = UINT32_MAX;  ///< assigned by the world; UINT32_MAX: no instance
+    std::uint32_t generation = 0;      ///< distinguishes successive instances with the same index
+    std::uint32_t world = 0;           ///< number of the world, unique in the process
+
+    /// True if both name the same instance of one world.
+    friend bool operator==(const InstanceHandle&, const InstanceHandle&) = default;
+};
+
+/// An instance as a world keeps it.
+///
+/// Two instances form a pair only if each one's category has a bit in common with the other's mask.
+struct WorldInstance {
+    ShapeHandle shape = {};           ///< of the world's context
+    Pose pose = {};                   ///< from shape coordinates to world coordinates
+    std::uint64_t user = 0;           ///< the caller's own value, returned by World::instance()
+    std::uint32_t category = 1;       ///< what it is: a set of bits
+    std::uint32_t mask = UINT32_MAX;  ///< the categories that it pairs with: a set of bits
+};
+
+/// The instances that a query considers: those whose category has a bit in common with `mask`, and
+/// whose mask has one in common with `category`.
+struct WorldFilter {
+    std::uint32_t category = UINT32_MAX;  ///< what the query stands for: a set of bits
+    std::uint32_t mask = UINT32_MAX;      ///< the categories considered: a set of bits
+    /// An instance of this world to leave out, if it still exists: the one dragged.
+    InstanceHandle ignored = {};
+};
+
+/// One shape at many poses: World::test_poses().
+struct PoseTestQuery {
+    ShapeHandle shape = {};   ///< of the world's context
+    WorldFilter filter = {};  ///< the instances tested
+};
+
+/// One shape at many poses: World::find_clearances().
+struct ClearanceQuery {
+    ShapeHandle shape = {};   ///< of the world's context
+    WorldFilter filter = {};  ///< the instances considered
+    /// Clearances of at most this are not told apart, which saves time: the answer is this value,
+    /// and no instance. World units.
+    double min_clearance = -std::numeric_limits<double>::infinity();
+    /// Instances farther away than this are not considered, which saves time: if there is no other,
+    /// the answer is this value, and no instance. World units, >= 0 and above `min_clearance`.
+    double max_clearance = std::numeric_limits<double>::infinity();
+};
+
+/// The least distance of a shape at one pose from the instances of a world. Of several that are
+/// equally near, the instance added first counts.
+struct Clearance {
+    /// World units. Positive: the least distance of the shape from any instance. Otherwise it
+    /// intersects instances: minus the depth of the deepest vertex, of the shape in any of them or
+    /// of any of them in the shape; 0 if boundaries cross and no vertex is inside.
+    double distance = std::numeric_limits<double>::infinity();
+    /// Of `distance`, if there is an instance: rounding plus the shapes' deviations.
+    double error_bound = 0.0;
+    /// The nearest instance, or the one with the deepest vertex; none if `distance` is one of the
+    /// limits of the query.
+    InstanceHandle instance = {};
+    Vector2 point = {};    ///< of the shape, where it is nearest or deepest; needs `direction`
+    Vector2 nearest = {};  ///< of the instance; likewise
+    /// Unit vector. Positive distance: from `point` to `nearest`. Negative: the direction in which
+    /// the shape leaves the instance at the deepest vertex. (0, 0) at distance 0 and without an
+    /// instance.
+    Vector2 direction = {};
+};
+
+/// What World::find_nearest() searches for.
+enum class NearestKind : std::uint8_t {
+    instances,  ///< the nearest instances, each by its nearest boundary point
+    edges,      ///< the nearest edges of all instances
+};
+
+/// The nearest instances, or edges, of many points: World::find_nearest().
+struct NearestQuery {
+    std::uint32_t count = 1;                    ///< the number wanted per point, >= 1
+    NearestKind kind = NearestKind::instances;  ///< what is searched for
+    /// Boundaries farther away than this are not considered. World units, >= 0.
+    double max_distance = std::numeric_limits<double>::infinity();
+    WorldFilter filter = {};  ///< the instances considered
+};
+
+/// One of the nearest instances, or edges, of a point.
+struct NearestHit {
+    InstanceHandle instance = {};  ///< none: fewer were found than wanted
+    /// NearestKind::instances: signed distance of the point from the instance's boundary, negative
+    /// inside. NearestKind::edges: distance from the edge, >= 0. World units.
+    double distance = std::numeric_limits<double>::infinity();
+    double error_bound = 0.0;  ///< of `distance`: rounding plus the shape's deviation
+    Vector2 nearest = {};      ///< the nearest point of the boundary, or of the edge
+    Feature feature = {};      ///< of the instance's shape: where `nearest` lies
+};
+
+/// The nearest instances of one shape at many poses: World::find_nearest().
+struct ShapeNearestQuery {
+    ShapeHandle shape = {};   ///< of the world's context
+    WorldFilter filter = {};  ///< the instances considered
+    std::uint32_t count = 1;  ///< the number wanted per pose, >= 1
+    /// Instances farther away than this are not considered. World units, >= 0.
+    double max_distance = std::numeric_limits<double>::infinity();
+};
+
+/// The nearest edges of one shape at many poses: World::find_nearest().
+struct ShapeEdgeQuery {
+    ShapeHandle shape = {};   ///< of the world's context
+    WorldFilter filter = {};  ///< the instances considered
+    std::uint32_t count = 1;  ///< the number wanted per pose, >= 1
+    /// Edges farther away than this are not considered. World units, >= 0.
+    double max_distance = std::numeric_limits<double>::infinity();
+};
+
+/// One of the edges nearest to a shape.
+struct ShapeEdgeHit {
+    InstanceHandle instance = {};  ///< none: fewer were found than wanted
+    std::uint32_t edge = 0;        ///< of the instance's shape, among the edges of all its rings
+    /// Least distance of the edge from the shape; 0 if they share a point, also where the edge lies
+    /// inside. World units.
+    double distance = std::numeric_limits<double>::infinity();
+    double error_bound = 0.0;  ///< of `distance`: rounding plus the shapes' deviations
+    Vector2 point = {};        ///< of the shape, nearest to the edge; at distance 0 of both
+    Vector2 nearest = {};      ///< of the edge, nearest to `point`
+    Vector2 direction = {};    ///< unit vector from `point` to `nearest`; (0, 0) at distance 0
+};
+
+/// A straight path from one point to another, in world coordinates.
+struct Segment {
+    Vector2 from = {};  ///< where it starts
+    Vector2 to = {};    ///< where it ends
+};
+
+/// Where a segment crosses or touches the boundary of an instance.
+struct RayHit {
+    InstanceHandle instance = {};  ///< none: the segment hits nothing
+    double parameter = 1.0;        ///< 0 at the start of the segment, 1 at its end
+    double error_bound = 0.0;      ///< of `point`: rounding plus the shape's deviation
+    Vector2 point = {};            ///< where it hits
+    /// Unit normal of the edge, from its vertices in the world, which are rounded; against the
+    /// segment's direction.
+    Vector2 normal = {};
+    std::uint32_t edge = 0;  ///< of the instance's shape, among the edges of all its rings
+};
+
+/// The hits of many segments: those of segment i are hits[offsets[i]] to hits[offsets[i + 1] - 1].
+struct RayHits {
+    std::vector<std::uint32_t> offsets;  ///< one more than there are segments; the first is 0
+    std::vector<RayHit> hits;            ///< of each segment in order along it
+};
+
+/// Lists of instances: list i is instances[offsets[i]] to instances[offsets[i + 1] - 1].
+struct InstanceLists {
+    std::vector<std::uint32_t> offsets;     ///< one more than there are lists; the first is 0
+    std::vector<InstanceHandle> instances;  ///< of each list in the order in which they were added
+};
+
+/// A motion from one pose to another in unit time, with constant velocity and angular velocity, as
+/// TimeOfImpactQuery describes it.
+struct Sweep {
+    Pose start = {};  ///< at time 0
+    Pose end = {};    ///< at time 1
+};
+
+/// A moving shape against a world that does not move: World::cast_shape().
+struct ShapeCastQuery {
+    ShapeHandle shape = {};         ///< of the world's context
+    WorldFilter filter = {};        ///< the instances considered
+    double tolerance = 0.0;         ///< as TimeOfImpactQuery::tolerance
+    double contact_distance = 0.0;  ///< as TimeOfImpactQuery::contact_distance
+};
+
+/// When a moving shape first touches a world.
+struct ShapeCastHit {
+    ImpactState state = ImpactState::separated;  ///< the outcome
+    /// The one touched first; none if separated. Of several, one touched at the start, then the one
+    /// added first.
+    InstanceHandle instance = {};
+    double time = 1.0;              ///< as TimeOfImpactResult::time: never late
+    double time_error_bound = 0.0;  ///< as TimeOfImpactResult::time_error_bound
+    double error_bound = 0.0;       ///< as ResultSummary::error_bound of a TimeOfImpactResult
+    Vector2 point = {};             ///< of the moving shape at `time`, nearest to `instance`
+    Vector2 nearest = {};           ///< of `instance`, nearest to `point`
+    Vector2 direction = {};  ///< unit vector from `point` to `nearest`; (0, 0) where they meet
+};
+
+}  // namespace nearfield
