@@ -1,3 +1,6 @@
+#include <tools/benchmark/milliseconds_of.hpp>
+#include <tools/common/add_shape.hpp>
+#include <tools/common/library_error.hpp>
 #include <tools/peers/nearfield_side.hpp>
 
 #include <variant>
@@ -51,6 +54,31 @@ std::vector<const AnyResult*> NearfieldSide::results() const {
         results.push_back(&answer.result);
     }
     return results;
+}
+
+KeptTests::KeptTests(const Problem& problem, Context& context)
+    : world_(tools::take(World::create(context))), intersects_(problem.scene.queries.size()) {
+    std::vector<ShapeHandle> shapes;
+    for (const tools::SceneShape& shape : problem.scene.shapes) {
+        shapes.push_back(tools::take(tools::add_shape(context, shape.rings, shape.deviation)));
+    }
+    std::vector<InstanceHandle> instances;
+    for (const tools::SceneInstance& instance : problem.scene.instances) {
+        instances.push_back(
+            tools::take(world_.add({.shape = shapes[instance.shape], .pose = instance.pose})));
+    }
+    for (const tools::SceneQuery& query : problem.scene.queries) {
+        a_.push_back(instances[query.a]);
+        b_.push_back(instances[query.b]);
+    }
+}
+
+double KeptTests::run_frame() {
+    Status status;
+    const double milliseconds =
+        benchmark::milliseconds_of([&] { status = world_.test_pairs(a_, b_, intersects_); });
+    tools::require(status, "bench_peers");
+    return milliseconds;
 }
 
 }  // namespace nearfield::peers

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -86,6 +88,17 @@ PeerTimes checked(Entry& entry, const NearfieldSide& ours) {
     return times;
 }
 
+void require_same(const std::vector<const AnyResult*>& results, std::span<const std::uint8_t> tests,
+                  const std::string& name) {
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const bool intersects = std::get<IntersectionTestResult>(*results[i]).intersects;
+        if (intersects != (tests[i] != 0)) {
+            throw std::runtime_error(name + ": a batch and a world differ in query " +
+                                     std::to_string(i));
+        }
+    }
+}
+
 }  // namespace
 
 std::optional<double> ProblemTimes::quickest(benchmark::Spread PeerTimes::*times) const {
@@ -107,11 +120,19 @@ ProblemTimes race(const Problem& problem, Context& context) {
     NearfieldSide kept(problem, context);
     ours.run_frame(tools::FrameInput::all);
     kept.run_frame(tools::FrameInput::all);
+    std::optional<KeptTests> tests;
+    if (problem.task == Task::intersection_test) {
+        tests.emplace(problem, context);
+        tests->run_frame();
+        require_same(ours.results(), tests->answers(), problem.name);
+    }
     times.technique = ours.technique();
     const std::vector<std::unique_ptr<Entry>> entries = entries_of(problem);
     std::vector<benchmark::Contender> contenders;
     contenders.push_back({[&] { return ours.run_frame(tools::FrameInput::all); }, {}});
-    contenders.push_back({[&] { return kept.run_frame(tools::FrameInput::nothing); }, {}});
+    contenders.push_back(
+        {[&] { return tests ? tests->run_frame() : kept.run_frame(tools::FrameInput::nothing); },
+         {}});
     for (const std::unique_ptr<Entry>& owner : entries) {
         Entry& entry = *owner;
         times.peers.push_back(checked(entry, ours));
