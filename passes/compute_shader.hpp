@@ -54,6 +54,16 @@ public:
             dispatch_threads(commands, std::min(end - first, most));
         }
     }
+    /// Dispatches `count` workgroups, in as many dispatches as the device's limits require:
+    /// `push(first)` is called before each, with its first workgroup.
+    template <class Push>
+    void dispatch_workgroups(VkCommandBuffer commands, std::uint32_t count, Push&& push) const {
+        for (std::uint64_t first = 0; first < count; first += plan::max_workgroups) {
+            push(static_cast<std::uint32_t>(first));
+            dispatch(commands, static_cast<std::uint32_t>(
+                                   std::min<std::uint64_t>(count - first, plan::max_workgroups)));
+        }
+    }
     /// Dispatches one workgroup for each plan::CellGroup of a list, in as many dispatches as the
     /// device's limits require. The push constants of each, a structure of shaders/push.h, are the
     /// position of its first group, and `words`.

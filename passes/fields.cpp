@@ -1,8 +1,10 @@
 #include <passes/fields.hpp>
 #include <passes/search_shaders.hpp>
 
+#include <shaders/field_blocks_by_groups_comp.hpp>
 #include <shaders/field_blocks_comp.hpp>
 #include <shaders/field_quarters_comp.hpp>
+#include <shaders/field_regions_by_groups_comp.hpp>
 #include <shaders/field_regions_comp.hpp>
 #include <shaders/fields.h>
 #include <shaders/resolve_blocks_comp.hpp>
@@ -11,6 +13,7 @@
 #include <shaders/resolve_field_points_by_walks_comp.hpp>
 
 #include <functional>
+#include <string>
 
 namespace nearfield::passes {
 
@@ -47,13 +50,28 @@ plan::FieldPush push_of(const RecordContext& context) {
 
 }  // namespace
 
+std::vector<Fields::ListPass> Fields::make_lists(const gpu::Device& device,
+                                                 const ComputeLayout& layout, bool by_groups) {
+    using plan::FieldWork;
+    std::vector<ListPass> lists;
+    const auto add = [&](const char* name, gpu::Spirv code, std::uint32_t FieldWork::*squares) {
+        const std::string shader = std::string("nearfield ") + name;
+        lists.push_back({name, make_field_shader(device, layout, code, shader.c_str()), squares});
+    };
+    if (by_groups) {
+        add("list for regions", shaders::field_regions_by_groups_comp, &FieldWork::regions);
+        add("list for blocks", shaders::field_blocks_by_groups_comp, &FieldWork::quarters);
+    } else {
+        add("list for regions", shaders::field_regions_comp, &FieldWork::regions);
+        add("list for quarters", shaders::field_quarters_comp, &FieldWork::quarters);
+        add("list for blocks", shaders::field_blocks_comp, &FieldWork::blocks);
+    }
+    return lists;
+}
+
 Fields::Fields(const gpu::Device& device, const ComputeLayout& layout)
-    : regions_(make_field_shader(device, layout, shaders::field_regions_comp,
-                                 "nearfield list for regions")),
-      quarters_(make_field_shader(device, layout, shaders::field_quarters_comp,
-                                  "nearfield list for quarters")),
-      blocks_(make_field_shader(device, layout, shaders::field_blocks_comp,
-                                "nearfield list for blocks")),
+    : lists_by_groups_(!device.is_software()),
+      lists_(make_lists(device, layout, lists_by_groups_)),
       values_(make_field_shader(device, layout, shaders::resolve_blocks_comp,
                                 "nearfield resolve blocks")),
       features_(make_field_shader(device, layout, shaders::resolve_features_comp,
@@ -64,26 +82,20 @@ Fields::Fields(const gpu::Device& device, const ComputeLayout& layout)
                                 "nearfield resolve field points by walks")) {}
 
 Fields::Buffers Fields::declare_lists(TileGraph& graph, Buffers buffers) const {
-    const auto list = [&](const char* name, const ComputeShader& shader,
-                          std::uint32_t plan::FieldWork::*threads) {
-        buffers.scratch = graph.add_compute_pass(
-            name, {{buffers.input, Access::storage_read_in_compute}}, buffers.scratch,
-            [this, &shader, threads](VkCommandBuffer commands, const RecordContext& context) {
-                dispatch(commands, context, shader, context.batch.compute.fields.*threads);
+    for (const ListPass& list : lists_) {
+        graph.add_pass(
+            list.name, graph::PassKind::compute,
+            [&](graph::PassBuilder& pass) {
+                pass.read(buffers.input, Access::storage_read_in_compute);
+                buffers.scratch = pass.write(buffers.scratch, Access::storage_write_in_compute);
+                if (&list == &lists_.back()) {
+                    buffers.crowd = pass.write(buffers.crowd, Access::storage_write_in_compute);
+                }
+            },
+            [this, &list](VkCommandBuffer commands, const RecordContext& context) {
+                record_list(commands, context, list);
             });
-    };
-    list("list for regions", regions_, &plan::FieldWork::regions);
-    list("list for quarters", quarters_, &plan::FieldWork::quarters);
-    graph.add_pass(
-        "list for blocks", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(buffers.input, Access::storage_read_in_compute);
-            buffers.scratch = pass.write(buffers.scratch, Access::storage_write_in_compute);
-            buffers.crowd = pass.write(buffers.crowd, Access::storage_write_in_compute);
-        },
-        [this](VkCommandBuffer commands, const RecordContext& context) {
-            dispatch(commands, context, blocks_, context.batch.compute.fields.blocks);
-        });
+    }
     return buffers;
 }
 
@@ -146,6 +158,21 @@ void Fields::dispatch(VkCommandBuffer commands, const RecordContext& context,
     shader.dispatch_in_parts(commands, 0, push.end, [&](std::uint32_t first) {
         push.first = first;
         shader.push(commands, push);
+    });
+}
+
+void Fields::record_list(VkCommandBuffer commands, const RecordContext& context,
+                         const ListPass& list) const {
+    const std::uint32_t squares = context.batch.compute.fields.*list.squares;
+    if (!lists_by_groups_) {
+        dispatch(commands, context, list.shader, squares);
+        return;
+    }
+    plan::FieldPush push = push_of(context);
+    list.shader.bind(commands, context.sets.fields);
+    list.shader.dispatch_workgroups(commands, squares, [&](std::uint32_t first) {
+        push.first = first;
+        list.shader.push(commands, push);
     });
 }
 

@@ -5,13 +5,16 @@
 #include <passes/compute_shader.hpp>
 #include <passes/record_context.hpp>
 
+#include <cstdint>
+#include <vector>
+
 namespace nearfield::passes {
 
 /// Distance fields of the compute technique (shaders/fields.h). The device lists the edges of B
 /// that can be nearest in each block of 16 x 16 cells, from coarse to fine; the cells of a block
-/// search its list, and masks tell their signs. Each dispatch covers all fields of a tile batch. No
-/// thread waits for another: on software drivers, barriers within a workgroup and shared memory
-/// cost the most.
+/// search its list, and masks tell their signs. Each dispatch covers all fields of a tile batch. On
+/// a software driver one thread makes a list, since barriers within a workgroup and shared memory
+/// cost the most there; on a GPU, which has more threads than there are lists, a workgroup does.
 class Fields {
 public:
     Fields(const gpu::Device& device, const ComputeLayout& layout);
@@ -45,14 +48,23 @@ public:
     [[nodiscard]] Output declare_points(TileGraph& graph, graph::Handle input, Output output) const;
 
 private:
+    /// A pass that makes a list for each region, quarter or block.
+    struct ListPass {
+        const char* name;
+        ComputeShader shader;
+        std::uint32_t plan::FieldWork::*squares;  ///< their number
+    };
+    static std::vector<ListPass> make_lists(const gpu::Device& device, const ComputeLayout& layout,
+                                            bool by_groups);
     void dispatch(VkCommandBuffer commands, const RecordContext& context,
                   const ComputeShader& shader, std::uint64_t threads) const;
+    void record_list(VkCommandBuffer commands, const RecordContext& context,
+                     const ListPass& list) const;
     void record_crowded(VkCommandBuffer commands, const RecordContext& context) const;
     void record_points(VkCommandBuffer commands, const RecordContext& context) const;
 
-    ComputeShader regions_;
-    ComputeShader quarters_;
-    ComputeShader blocks_;
+    bool lists_by_groups_;
+    std::vector<ListPass> lists_;  ///< the last one also counts crowded blocks
     ComputeShader values_;
     ComputeShader features_;
     ComputeShader crowded_;

@@ -19,19 +19,6 @@ layout(std430, set = 0, binding = 2) buffer Crowd {
     uint crowd;  // the number of crowded blocks
 };
 
-// The segment of an edge, relative to the block's low corner. Farther along the edge than the block
-// is wide, nothing is nearest to a cell.
-uvec4 segment_of(SeenEdge edge, vec2 half_size) {
-    float reach = 1.5 * float(block_side);
-    float from = max(edge.from, -reach);
-    float to = min(edge.to, reach);
-    vec2 middle = half_size + edge.nearest + 0.5 * (from + to) * edge.way;
-    return floatBitsToUint(vec4(middle, 0.5 * (to - from) * edge.way));
-}
-
-// Up to this many edges are tested at every cell instead of being culled further.
-const uint few_edges = 2u;
-
 // Four of `count` edges in a list, the last one in place of those beyond it.
 uvec4 four_slots(uint first, uint i, uint count) {
     uvec4 words = first + min(i + uvec4(0u, 1u, 2u, 3u), uvec4(count - 1u));
@@ -52,7 +39,7 @@ Limits find_limits(FieldTileData tile, Shape shape, Square square, uint edges, u
     for (uint i = 0u; i < edge_count; i += 4u) {
         consider_four(square, shape, four_slots(edges, i, edge_count), rivals);
     }
-    return limits_of(tile, shape, square, rivals);
+    return limits_of(tile, shape, square, rivals.slot, rivals.corner_slot);
 }
 
 // Writes the segments if there is room, and where they are; returns whether there was. `edges`: the

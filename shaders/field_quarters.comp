@@ -81,8 +81,8 @@ void main() {
     uint count = crowded;
     if (chunk_count != crowded) {
         Rivals rivals = find_rivals(square, shape, chunks, chunk_count);
-        count = list_edges(square, shape, limits_of(tile, shape, square, rivals), chunks, chunk_count,
-                           list);
+        Limits limits = limits_of(tile, shape, square, rivals.slot, rivals.corner_slot);
+        count = list_edges(square, shape, limits, chunks, chunk_count, list);
     }
     scratch[list] = count;
 }

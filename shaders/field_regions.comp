@@ -129,7 +129,8 @@ void main() {
     Rivals rivals;
     uint count = crowded;
     if (find_rivals(square, shape, rivals)) {
-        count = list_chunks(square, shape, limits_of(tile, shape, square, rivals), list);
+        Limits limits = limits_of(tile, shape, square, rivals.slot, rivals.corner_slot);
+        count = list_chunks(square, shape, limits, list);
     }
     scratch[list] = count;
 }

@@ -31,6 +31,14 @@ Square square_at(FieldTileData tile, uvec2 place, uint side) {
                   centre.y + corner_across * across.y + corner_up * up.y, length(across + up));
 }
 
+vec2 way_from_box(vec2 p, vec4 box) {
+    return p - clamp(p, box.xy, box.zw);
+}
+
+vec2 way_from_edge(vec2 p, vec4 edge) {
+    return p - nearest_on_segment(p, edge.xy, edge.zw);
+}
+
 // The nearest edges: their squared distances, and their slots.
 struct Rivals {
     float squared;  // from the centre
@@ -89,14 +97,16 @@ struct Limits {
     vec4 high_right;
 };
 
-Limits limits_of(FieldTileData tile, Shape shape, Square square, Rivals rivals) {
-    float slack = tile.b.slack / scale_of(tile) + sqrt(rivals.squared) / 131072.0;
-    return Limits(
-        sqrt(corner_distances(square, floats_at(shape.edges + rivals.slot))) + slack,
-        sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.x))) + slack,
-        sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.y))) + slack,
-        sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.z))) + slack,
-        sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.w))) + slack);
+// The slots of the rivals: the one nearest to the centre, and those nearest to the corners.
+Limits limits_of(FieldTileData tile, Shape shape, Square square, uint slot, uvec4 corner_slot) {
+    vec4 edge = floats_at(shape.edges + slot);
+    float slack = tile.b.slack / scale_of(tile) +
+                  length(way_from_edge(square.centre, edge)) / 131072.0;
+    return Limits(sqrt(corner_distances(square, edge)) + slack,
+                  sqrt(corner_distances(square, floats_at(shape.edges + corner_slot.x))) + slack,
+                  sqrt(corner_distances(square, floats_at(shape.edges + corner_slot.y))) + slack,
+                  sqrt(corner_distances(square, floats_at(shape.edges + corner_slot.z))) + slack,
+                  sqrt(corner_distances(square, floats_at(shape.edges + corner_slot.w))) + slack);
 }
 
 // `way`: to the centre from the nearest point of an edge, or of a box.
@@ -110,14 +120,6 @@ bool can_be_nearest(Square square, Limits limits, vec2 way) {
            any(lessThanEqual(tangent, limits.high_right));
 }
 
-vec2 way_from_box(vec2 p, vec4 box) {
-    return p - clamp(p, box.xy, box.zw);
-}
-
-vec2 way_from_edge(vec2 p, vec4 edge) {
-    return p - nearest_on_segment(p, edge.xy, edge.zw);
-}
-
 // Which of four edges can be nearest, one bit each.
 uint those_nearest(Square square, Shape shape, Limits limits, uvec4 slots) {
     vec4 edges[4] = edges_at(shape, slots);
@@ -128,3 +130,16 @@ uint those_nearest(Square square, Shape shape, Limits limits, uvec4 slots) {
     }
     return near;
 }
+
+// The segment of an edge for the cells of a block, relative to the block's low corner; half_size: the
+// block's. Farther along the edge than the block is wide, nothing is nearest to a cell.
+uvec4 segment_of(SeenEdge edge, vec2 half_size) {
+    float reach = 1.5 * float(block_side);
+    float from = max(edge.from, -reach);
+    float to = min(edge.to, reach);
+    vec2 middle = half_size + edge.nearest + 0.5 * (from + to) * edge.way;
+    return floatBitsToUint(vec4(middle, 0.5 * (to - from) * edge.way));
+}
+
+// Up to this many edges are tested at every cell of a block instead of being culled further.
+const uint few_edges = 2u;
