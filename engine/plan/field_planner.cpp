@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 namespace nearfield::plan {
@@ -85,10 +84,9 @@ std::optional<Box> box_of(const DistanceFieldQuery& query, const PlannedQuery& p
 
 /// Checks that tolerance and deviations are compatible with coordinates and distances this large;
 /// the result states the error.
-bool check_numbers(const PlannedQuery& planned, const Box& box, ResultSummary& result) {
+bool check_numbers(const PlannedQuery& planned, const Box& box, const TransformedPolygon& b,
+                   const Box& box_b, ResultSummary& result) {
     const double tolerance = result.tolerance;
-    const TransformedPolygon b(*planned.b, planned.pose_b);
-    const Box box_b = b.box();
     result.status = check_deviations(tolerance, planned.deviations, planned.budget.bound);
     if (result.status.ok()) {
         result.status = check_resolution(
@@ -119,9 +117,20 @@ std::uint32_t side_of_tiles(const PlannedQuery& planned, bool at_points, const P
     return drawn - 2 * parts.halo;
 }
 
+/// Not less than the distance of a point from the nearest vertex of a polygon in a tight box: each
+/// side of the box has a vertex.
+double bound_on_distance(const Vector& point, const Box& box) {
+    const Vector to_low = (point - box.min()).cwiseAbs();
+    const Vector to_high = (point - box.max()).cwiseAbs();
+    const Vector near = to_low.cwiseMin(to_high);
+    const Vector far = to_low.cwiseMax(to_high);
+    return std::min(Vector(near.x(), far.y()).norm(), Vector(far.x(), near.y()).norm());
+}
+
 /// Checks that the images of a resident field fit the device; the result states the error.
 bool check_resident(const DistanceFieldQuery& query, const Grid& grid, std::uint32_t largest_image,
-                    const PlannedQuery& planned, PlannedField& field, DistanceFieldResult& result) {
+                    const PlannedQuery& planned, const Box& box_b, PlannedField& field,
+                    DistanceFieldResult& result) {
     if (std::max(grid.width, grid.height) > largest_image) {
         result.status = {
             StatusCode::too_large,
@@ -140,13 +149,7 @@ bool check_resident(const DistanceFieldQuery& query, const Grid& grid, std::uint
     // Distances change by at most the distance moved.
     const Vector half =
         0.5 * grid.cell * Vector(static_cast<double>(grid.width), static_cast<double>(grid.height));
-    const TransformedPolygon b(*planned.b, planned.pose_b);
-    const Vector centre = grid.origin + half;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < planned.b->size(); ++i) {
-        nearest = std::min(nearest, (b.vertex(i) - centre).norm());
-    }
-    field.farthest = nearest + half.norm();
+    field.farthest = bound_on_distance(grid.origin + half, box_b) + half.norm();
     result.status = check_distance(
         result.tolerance, planned.budget.bound + far_rounding * field.farthest, field.farthest);
     return result.status.ok();
@@ -211,7 +214,12 @@ void FieldPlanner::plan(const DistanceFieldQuery& query, CurrentQuery& current,
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     const std::optional<Box> box = box_of(query, planned, result);
-    if (!box || !check_numbers(planned, *box, result)) {
+    if (!box) {
+        return;
+    }
+    const TransformedPolygon b(*planned.b, planned.pose_b);
+    const Box box_b = b.box();
+    if (!check_numbers(planned, *box, b, box_b, result)) {
         return;
     }
     regions_.cover(*box, result);
@@ -219,7 +227,7 @@ void FieldPlanner::plan(const DistanceFieldQuery& query, CurrentQuery& current,
     auto& field = planned.work.emplace<PlannedField>();
     field.parts = field_parts(query);
     if (planned.resident &&
-        !check_resident(query, grid, limits.largest_image, planned, field, result)) {
+        !check_resident(query, grid, limits.largest_image, planned, box_b, field, result)) {
         return;
     }
     const bool on_cpu = planned.technique == Technique::cpu;
