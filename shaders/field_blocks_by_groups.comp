@@ -48,7 +48,8 @@ void choose_chunks(Square square, Shape shape, Chunks chunks) {
     barrier();
 }
 
-// Lists the chunks that can have the nearest edge; returns their number.
+// Lists the chunks that can have the nearest edge; returns their number. A region lists fewer than the
+// threads take at once.
 uint list_chunks(Square square, Shape shape, Limits limits, Chunks chunks) {
     uint first_box = word_at(shape.first_boxes);
     uint run = run_of(chunks.count, 1u);
@@ -154,7 +155,7 @@ uvec2 offset_of(uint block) {
     return uvec2(block & 1u, block >> 1);
 }
 
-// Where the segments of each block end, among those of the quarter.
+// Where the segments of each block end, among those of all.
 uvec4 ends_of_blocks() {
     uvec4 ends = uvec4(near_counts[0], near_counts[1], near_counts[2], near_counts[3]);
     ends.yw += ends.xz;

@@ -16,7 +16,8 @@ NEARFIELD_SHARED_BEGIN
 const uint quarter_side = 2u * block_side;  // in cells
 const uint region_side = 2u * quarter_side;
 
-// The lists in the scratch memory. The first word of a list is the number of its elements.
+// The lists in the scratch memory. The first word of a list is the number of its elements. A
+// workgroup that makes the lists of a quarter and its blocks keeps the quarter's in shared memory.
 const uint words_of_region = 512u;
 const uint words_of_quarter = 512u;
 // All blocks share the room for segments, a unit each: the middle of an edge's part near the block,
