@@ -24,10 +24,13 @@ namespace {
 
 constexpr double too_long_ms = 2000.0;  ///< a way whose frame takes more has no larger rows
 constexpr double enough_ms = 500.0;     ///< of measured frames
-constexpr std::size_t max_frames = 30;
+constexpr std::size_t max_frames = 300;
 constexpr std::size_t min_frames = 3;
 constexpr std::size_t warm_up = 2;
-constexpr std::size_t timed_frames = 3;  ///< after one more
+/// Of frames before any is measured: GPUs lower their clock to a fifth while they wait for a CPU
+/// that makes a scene, and take this long to raise it again.
+constexpr double warm_up_ms = 500.0;
+constexpr std::size_t max_timed_frames = 15;  ///< for the times of passes
 
 double processor_ms() {
     timespec now{};
@@ -37,11 +40,16 @@ double processor_ms() {
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-GpuTime measure(GpuWork& work, const std::string& way) {
-    for (std::size_t frame = 0; frame < warm_up; ++frame) {
+void warm_up_with(GpuWork& work) {
+    double spent = 0.0;
+    for (std::size_t frame = 0; frame < warm_up || spent < warm_up_ms; ++frame) {
         stop_after_ctrl_c();
-        work.run_frame();
+        spent += benchmark::milliseconds_of([&] { work.run_frame(); });
     }
+}
+
+GpuTime measure(GpuWork& work, const std::string& way) {
+    warm_up_with(work);
     std::vector<double> frames;
     std::vector<double> cpu;
     double spent = 0.0;
@@ -108,13 +116,16 @@ private:
     void time_passes(const GpuRowPlan::Way& way, GpuTime& time) const {
         Context context = open(true);
         const std::unique_ptr<GpuWork> work = way.make(context, gpu_);
+        warm_up_with(*work);
         std::vector<Timings> frames;
-        for (std::size_t frame = 0; frame < 1 + timed_frames; ++frame) {
+        double spent = 0.0;
+        while (frames.size() < min_frames ||
+               (frames.size() < max_timed_frames && spent < enough_ms)) {
             stop_after_ctrl_c();
-            work->run_frame();
+            spent += benchmark::milliseconds_of([&] { work->run_frame(); });
             frames.push_back(work->timings());
         }
-        time.passes = benchmark::median_timings(frames, timed_frames).passes;
+        time.passes = benchmark::median_timings(frames, frames.size()).passes;
         time.device = benchmark::sum_of(time.passes);
     }
 
