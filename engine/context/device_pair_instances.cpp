@@ -101,6 +101,12 @@ void DevicePairTableBase::State::place(const world::Instances& instances,
 }
 
 void DevicePairTableBase::State::place_moved(const world::Instances& instances) {
+    if (instances.all_moves() != all_moves_) {
+        place_each_moved(instances);
+    }
+}
+
+void DevicePairTableBase::State::place_each_moved(const world::Instances& instances) {
     std::array<std::uint32_t, angles_at_once> numbers{};
     std::size_t count = 0;
     for (std::uint32_t number = 0; number < instances_.size(); ++number) {
@@ -113,6 +119,7 @@ void DevicePairTableBase::State::place_moved(const world::Instances& instances) 
         }
     }
     place(instances, std::span(numbers).first(count));
+    all_moves_ = instances.all_moves();
 }
 
 /// Whether the CPU answers the pairs of a shape, whatever its poses: its deviation is large for the
@@ -174,7 +181,7 @@ void DevicePairTableBase::State::place_all(const world::Instances& instances) {
     are_poses_taken_ = false;
     origin_ = poses_ ? geometry::to_vector(poses_->origin)
                      : Vector{median(places_, &Vector2::x), median(places_, &Vector2::y)};
-    place_moved(instances);
+    place_each_moved(instances);
     plan::PairQueryData all;
     all.cell = static_cast<float>(cell);
     all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
@@ -218,7 +225,7 @@ void DevicePairTableBase::State::order_instances(const world::Instances& instanc
         for (PairInstance& entry : instances_) {
             entry.moves = not_placed;
         }
-        place_moved(instances);
+        place_each_moved(instances);
     }
 }
 

@@ -114,6 +114,7 @@ private:
     void list_instances(const char* call, const world::Instances& instances);
     void place(const world::Instances& instances, std::span<const std::uint32_t> numbers);
     void place_moved(const world::Instances& instances);
+    void place_each_moved(const world::Instances& instances);
     void place_shape(ShapeHandle handle);
     [[nodiscard]] bool is_for_cpu(const geometry::Polygon& polygon) const;
     void place_all(const world::Instances& instances);
@@ -188,6 +189,7 @@ private:
     cpu::IntersectionTest intersection_test_;
     simd::TransformedInstances edges_;
     std::uint64_t filters_ = 0;           // of the world, at the last update
+    std::uint64_t all_moves_ = 0;         // of its instances, when they were placed
     std::optional<std::uint64_t> frame_;  // of the host, that it was recorded for
     std::uint32_t renderer_ = 0;          // number of that of the last update
     std::uint32_t updates_in_order_ = 0;  // since the instances were ordered

@@ -67,12 +67,14 @@ void Instances::note_change(std::uint32_t index) {
 void Instances::move(std::uint32_t index, const Pose& pose) {
     note_change(index);
     ++entries_[index].moves;
+    ++all_moves_;
     entries_[index].instance.pose = pose;
 }
 
 void Instances::set_filter(std::uint32_t index, std::uint32_t category, std::uint32_t mask) {
     note_change(index);
     ++entries_[index].moves;
+    ++all_moves_;
     ++filters_;
     entries_[index].instance.category = category;
     entries_[index].instance.mask = mask;

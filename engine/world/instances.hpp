@@ -67,6 +67,8 @@ public:
     [[nodiscard]] std::uint64_t filters() const { return filters_; }
     /// Changes with the pose and the filter of an instance, before prepare() too.
     [[nodiscard]] std::uint64_t moves(std::uint32_t index) const { return entries_[index].moves; }
+    /// Changes with that of any instance.
+    [[nodiscard]] std::uint64_t all_moves() const { return all_moves_; }
 
     /// Takes in what has changed since the last call. `shapes_revision`: changes whenever any shape
     /// does.
@@ -183,6 +185,7 @@ private:
     std::uint64_t next_number_ = 0;
     std::uint64_t membership_ = 1;
     std::uint64_t filters_ = 0;
+    std::uint64_t all_moves_ = 0;
     std::uint64_t last_change_ = 0;
     std::uint64_t shapes_revision_ = 0;
     double max_rounding_ = 0.0;
