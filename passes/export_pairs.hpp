@@ -10,20 +10,21 @@
 #include <shaders/push.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 namespace nearfield::passes {
 
 /// The passes that write what stays on the device of the pairs of a world, in a separate graph that
-/// follows PairSearch in the same commands: the frame of each direction, rows, records and headers.
+/// follows PairSearch in the same commands: rows and headers, and records.
 class ExportPairs {
 public:
     ExportPairs(const gpu::Device& device, const ComputeLayout& layout);
 
-    /// The descriptor sets, beside that of the search's passes about instances.
-    enum Set : std::uint8_t { of_rows, of_records, of_headers };
-    static constexpr std::size_t set_count = 3;
+    /// The descriptor sets.
+    enum Set : std::uint8_t { of_rows, of_records };
+    static constexpr std::size_t set_count = 2;
 
     /// What it is recorded from.
     struct Item {
@@ -40,25 +41,20 @@ public:
         return graph_.print(format, title);
     }
 
-    static constexpr std::uint32_t max_passes = 4;
+    static constexpr std::uint32_t max_passes = 2;
 
 private:
-    void declare_frames();
-    void declare_outputs();
-    void add_output(const char* name, const ComputeShader& shader, Set set, std::uint32_t stage,
-                    graph::Handle input, graph::Handle& output);
+    void declare_rows();
+    void declare_records();
 
-    ComputeShader frames_;
     ComputeShader rows_;
     ComputeShader records_;
-    ComputeShader headers_;
     graph::RecordedGraph<Item> graph_;
     // Of the search:
     graph::Handle shapes_;
     graph::Handle instances_;
     graph::Handle scratch_;
     graph::Handle arguments_;
-    graph::Handle found_;
     graph::Handle found_rows_;
     // What stays:
     graph::Handle pair_output_;

@@ -13,27 +13,28 @@ constexpr graph::ExternalAccess after_dispatches{.before = Access::indirect_argu
 
 }  // namespace
 
-PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders, plan::PairGoal goal)
-    : functions_(&device.functions()),
-      shaders_(&shaders),
+PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders,
+                       const plan::PairSearchKind& kind)
+    : shaders_(&shaders),
       input_(graph_.import_buffer({"pair shapes", true, false})),
       instances_(graph_.import_buffer({"pair instances", true, false})),
       scratch_(graph_.import_buffer({"pair scratch"}, after_reads)),
-      arguments_(graph_.import_buffer({"pair arguments", true, true}, after_dispatches)),
-      row_buffer_(graph_.import_buffer({"pair rows", false, true}, after_writes)) {
+      arguments_(graph_.import_buffer({"pair arguments"}, after_dispatches)),
+      row_buffer_(graph_.import_buffer({"pair rows", false, true}, after_writes)),
+      counts_(graph_.import_buffer({"pair counts", false, true}, after_writes)) {
     declare_pairs();
-    if (goal == plan::PairGoal::tests) {
+    if (kind.goal == plan::PairGoal::tests) {
         declare_tests();
     } else {
-        records_ = graph_.import_buffer({"pair points", false, true}, after_reads);
-        declare_points(goal);
+        declare_points(kind);
     }
+    declare_rows();
     graph_.compile(device);
 }
 
 /// A pass that writes into the scratch memory; the set says what it reads.
 void PairSearch::add(const char* name, const ComputeShader& shader, Set set,
-                     std::uint32_t threads_of, std::uint32_t stage) {
+                     std::uint32_t threads_of) {
     graph_.add_pass(
         name, graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
@@ -46,12 +47,13 @@ void PairSearch::add(const char* name, const ComputeShader& shader, Set set,
             }
             scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
         },
-        [this, &shader, set, threads_of, stage](VkCommandBuffer commands, const Item& item) {
+        [this, &shader, set, threads_of](VkCommandBuffer commands, const Item& item) {
             shader.bind(commands, item.sets[set]);
-            dispatch(commands, item, shader, threads_of, stage);
+            dispatch(commands, item, shader, threads_of, no_stage);
         });
 }
 
+/// A pass that turns the sums of the blocks of a stage into places.
 void PairSearch::add_scan(const char* name, std::uint32_t stage) {
     graph_.add_pass(
         name, graph::PassKind::compute,
@@ -60,36 +62,46 @@ void PairSearch::add_scan(const char* name, std::uint32_t stage) {
             arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
         },
         [this, stage](VkCommandBuffer commands, const Item& item) {
-            shaders_->search.scan.bind(commands, item.sets[of_points]);
-            push(commands, item, shaders_->search.scan, 0, stage);
-            shaders_->search.scan.dispatch(commands, 1);
+            const ComputeShader& scan = shaders_->search.scan;
+            scan.bind(commands, item.sets[of_points]);
+            push(commands, item, scan, 0, stage);
+            const auto& room = item.capacities;
+            scan.dispatch(commands, stage == plan::edge_total ? scan_groups(room[plan::item_total])
+                                    : stage == plan::point_total
+                                        ? scan_groups(room[plan::edge_total])
+                                        : scan_groups_of_points(room[plan::point_total]));
         });
 }
 
 void PairSearch::declare_pairs() {
-    add("pair boxes", shaders_->boxes, of_instances, no_stage);
+    add("pair boxes", shaders_->boxes, of_instances);
     graph_.add_pass(
         "pair levels", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-            row_buffer_ = pass.write(row_buffer_, Access::transfer_write);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            // So far there is no row that the CPU decides (shaders/pair_rows.comp).
-            functions_->vkCmdFillBuffer(commands, item.rows, 0, sizeof(plan::PairRowData), 0);
             shaders_->levels.bind(commands, item.sets[of_instances]);
-            push(commands, item, shaders_->levels, 0, 0);
+            push(commands, item, shaders_->levels, 0, no_stage);
             shaders_->levels.dispatch(commands, 1);
         });
-    add("count pairs", shaders_->lists, of_instances, no_stage, plan::pair_total);
-    add_scan("sum pairs", plan::pair_total);
-    add("list pairs", shaders_->lists, of_instances, no_stage);
+    add("count pairs", shaders_->counts, of_instances);
+    graph_.add_pass(
+        "list pairs", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(instances_, Access::storage_read_in_compute);
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+            arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
+        },
+        [this](VkCommandBuffer commands, const Item& item) {
+            shaders_->lists.bind(commands, item.sets[of_instances]);
+            dispatch(commands, item, shaders_->lists, no_stage, plan::pair_total);
+        });
     add("pair directions", shaders_->directions, of_instances, plan::pair_total);
 }
 
-void PairSearch::declare_points(plan::PairGoal goal) {
-    const bool finds_contacts = goal == plan::PairGoal::contacts;
-    const ComputeShader& summaries = finds_contacts ? shaders_->contacts : shaders_->summaries;
+void PairSearch::declare_points(const plan::PairSearchKind& kind) {
+    const bool finds_contacts = kind.goal == plan::PairGoal::contacts;
     add("pair items", shaders_->search.items, of_points, plan::item_total);
     add_scan("count edges", plan::edge_total);
     add("spread edges", shaders_->search.spread, of_points, plan::item_total);
@@ -97,34 +109,30 @@ void PairSearch::declare_points(plan::PairGoal goal) {
         add("pair crossings", shaders_->crossings, of_points, plan::edge_total);
     }
     add("pair edges", shaders_->search.edges, of_points, plan::edge_total);
-    add_scan("count points of edges", plan::edge_point_total);
-    add("pair ranges", shaders_->search.ranges, of_points, plan::pair_total);
     add_scan("count points", plan::point_total);
     add("pair points", shaders_->search.points, of_points, plan::point_total);
-    add_scan("count found points", plan::record_total);
+    if (kind.points != plan::FoundPoints::compared) {
+        add_scan("count found points", plan::record_total);
+    }
+    if (kind.points == plan::FoundPoints::packed) {
+        add_packing();
+    }
+    add_answers("pair summaries", finds_contacts ? shaders_->contacts : shaders_->summaries);
+}
+
+void PairSearch::add_packing() {
+    records_ = graph_.import_buffer({"pair points", false, true}, after_writes);
     graph_.add_pass(
         "pack points", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(arguments_, Access::indirect_arguments);
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+            pass.read(scratch_, Access::storage_read_in_compute);
             records_ = pass.write(records_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
             shaders_->search.pack.bind(commands, item.sets[of_points]);
             dispatch(commands, item, shaders_->search.pack, plan::point_total, no_stage);
         });
-    graph_.add_pass(
-        "pair summaries", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(arguments_, Access::indirect_arguments);
-            pass.read(records_, Access::storage_read_in_compute);
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-        },
-        [this, &summaries](VkCommandBuffer commands, const Item& item) {
-            summaries.bind(commands, item.sets[of_points]);
-            dispatch(commands, item, summaries, plan::pair_total, no_stage);
-        });
-    declare_rows();
 }
 
 void PairSearch::declare_tests() {
@@ -132,20 +140,32 @@ void PairSearch::declare_tests() {
     add_scan("count edges", plan::edge_total);
     add("spread edges", shaders_->search.spread, of_points, plan::item_total);
     add("pair crossings", shaders_->crossings, of_points, plan::edge_total);
-    add("pair verdicts", shaders_->verdicts, of_points, plan::pair_total);
-    declare_rows();
+    add_answers("pair verdicts", shaders_->verdicts);
+}
+
+/// The last pass before the rows.
+void PairSearch::add_answers(const char* name, const ComputeShader& shader) {
+    graph_.add_pass(
+        name, graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(input_, Access::storage_read_in_compute);
+            pass.read(arguments_, Access::indirect_arguments);
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+            counts_ = pass.write(counts_, Access::storage_write_in_compute);
+        },
+        [this, &shader](VkCommandBuffer commands, const Item& item) {
+            shader.bind(commands, item.sets[of_rows]);
+            dispatch(commands, item, shader, plan::pair_total, plan::record_total);
+        });
 }
 
 void PairSearch::declare_rows() {
-    add_scan("count rows", plan::row_total);
     graph_.add_pass(
         "pair rows", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(arguments_, Access::indirect_arguments);
             pass.read(scratch_, Access::storage_read_in_compute);
-            if (records_ != graph::Handle{}) {
-                pass.read(records_, Access::storage_read_in_compute);
-            }
+            counts_ = pass.write(counts_, Access::storage_write_in_compute);
             static_cast<void>(pass.write(row_buffer_, Access::storage_write_in_compute));
         },
         [this](VkCommandBuffer commands, const Item& item) {
@@ -165,6 +185,7 @@ void PairSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
         executor.set_buffer(records_, item.records);
     }
     executor.set_buffer(row_buffer_, item.rows);
+    executor.set_buffer(counts_, item.counts);
     graph_.execute(commands, timestamps, item);
 }
 

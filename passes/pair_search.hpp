@@ -21,10 +21,11 @@ namespace nearfield::passes {
 class PairSearch {
 public:
     /// The shaders must stay.
-    PairSearch(const gpu::Device& device, const PairShaders& shaders, plan::PairGoal goal);
+    PairSearch(const gpu::Device& device, const PairShaders& shaders,
+               const plan::PairSearchKind& kind);
 
     /// The descriptor sets of one search: for the passes about instances, those about points, and
-    /// the last one.
+    /// those about the answers of pairs.
     enum Set : std::uint8_t { of_instances, of_points, of_rows };
     static constexpr std::size_t set_count = 3;
 
@@ -37,13 +38,14 @@ public:
         VkBuffer arguments = VK_NULL_HANDLE;
         VkBuffer records = VK_NULL_HANDLE;
         VkBuffer rows = VK_NULL_HANDLE;
+        VkBuffer counts = VK_NULL_HANDLE;
         plan::SearchPush push{};  ///< without stage and capacities
         /// How many elements of each stage there is room for.
         std::array<std::uint32_t, plan::stages_of_pairs> capacities{};
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    static constexpr std::uint32_t max_passes = 20;
+    static constexpr std::uint32_t max_passes = 17;
 
     [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
         return graph_.print(format, title);
@@ -54,26 +56,28 @@ private:
     static constexpr std::uint32_t no_stage = UINT32_MAX;
 
     void declare_pairs();
-    void declare_points(plan::PairGoal goal);
+    void declare_points(const plan::PairSearchKind& kind);
     void declare_tests();
     void declare_rows();
-    void add(const char* name, const ComputeShader& shader, Set set, std::uint32_t threads_of,
-             std::uint32_t stage = no_stage);
+    void add(const char* name, const ComputeShader& shader, Set set,
+             std::uint32_t threads_of = no_stage);
     void add_scan(const char* name, std::uint32_t stage);
+    void add_packing();
+    void add_answers(const char* name, const ComputeShader& shader);
     void dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                   std::uint32_t threads_of, std::uint32_t stage) const;
     static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                      std::uint32_t first, std::uint32_t stage);
 
-    const gpu::Functions* functions_;
     const PairShaders* shaders_;
     graph::RecordedGraph<Item> graph_;
     graph::Handle input_;
     graph::Handle instances_;
     graph::Handle scratch_;
     graph::Handle arguments_;
-    graph::Handle records_;  // of a test: none
+    graph::Handle records_;  // none where the host reads none
     graph::Handle row_buffer_;
+    graph::Handle counts_;
 };
 
 }  // namespace nearfield::passes

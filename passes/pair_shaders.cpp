@@ -2,6 +2,7 @@
 
 #include <shaders/pair_boxes_comp.hpp>
 #include <shaders/pair_contacts_comp.hpp>
+#include <shaders/pair_counts_comp.hpp>
 #include <shaders/pair_crossings_comp.hpp>
 #include <shaders/pair_directions_comp.hpp>
 #include <shaders/pair_levels_comp.hpp>
@@ -24,6 +25,7 @@ PairShaders::PairShaders(const gpu::Device& device, const ComputeLayout& layout)
     : search(device, layout, true, "nearfield pair"),
       boxes(make_pair_shader(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes")),
       levels(make_pair_shader(device, layout, shaders::pair_levels_comp, "nearfield pair levels")),
+      counts(make_pair_shader(device, layout, shaders::pair_counts_comp, "nearfield pair counts")),
       lists(make_pair_shader(device, layout, shaders::pair_lists_comp, "nearfield pair lists")),
       directions(make_pair_shader(device, layout, shaders::pair_directions_comp,
                                   "nearfield pair directions")),

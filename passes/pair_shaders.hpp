@@ -13,6 +13,7 @@ struct PairShaders {
     SearchShaders search;
     ComputeShader boxes;
     ComputeShader levels;
+    ComputeShader counts;
     ComputeShader lists;
     ComputeShader directions;
     ComputeShader summaries;

@@ -44,25 +44,22 @@ void PointSearch::declare() {
                 dispatch(commands, item, shader, of);
             });
     };
-    // One thread per item or direction, whose number is known.
-    const auto search_known = [&](const char* name, const ComputeShader& shader,
-                                  std::uint32_t plan::SearchPush::*threads) {
+    // One thread per item, whose number is known.
+    const auto search_items = [&](const char* name, const ComputeShader& shader) {
         graph_.add_pass(
             name, graph::PassKind::compute,
             [&](graph::PassBuilder& pass) {
                 pass.read(input_, Access::storage_read_in_compute);
                 scratch = pass.write(scratch, Access::storage_write_in_compute);
             },
-            [&shader, threads](VkCommandBuffer commands, const Item& item) {
-                dispatch_known(commands, item, shader, item.push.*threads);
+            [&shader](VkCommandBuffer commands, const Item& item) {
+                dispatch_items(commands, item, shader);
             });
     };
-    search_known("search items", shaders_.items, &plan::SearchPush::items);
+    search_items("search items", shaders_.items);
     scan("count edges", plan::edge_total);
-    search_known("spread edges", shaders_.spread, &plan::SearchPush::items);
+    search_items("spread edges", shaders_.spread);
     search("search edges", shaders_.edges, plan::edge_total);
-    scan("count points of edges", plan::edge_point_total);
-    search_known("search ranges", shaders_.ranges, &plan::SearchPush::direction_count);
     scan("count points", plan::point_total);
     search("search points", shaders_.points, plan::point_total);
     scan("count found points", plan::record_total);
@@ -70,8 +67,7 @@ void PointSearch::declare() {
         "pack points", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(arguments, Access::indirect_arguments);
-            // Its shader also writes there, but only where the device finds the pairs.
-            scratch = pass.write(scratch, Access::storage_write_in_compute);
+            pass.read(scratch, Access::storage_read_in_compute);
             static_cast<void>(pass.write(records_, Access::storage_write_in_compute));
         },
         [this](VkCommandBuffer commands, const Item& item) {
@@ -98,10 +94,10 @@ void PointSearch::push(VkCommandBuffer commands, const Item& item, const Compute
     shader.push(commands, push);
 }
 
-void PointSearch::dispatch_known(VkCommandBuffer commands, const Item& item,
-                                 const ComputeShader& shader, std::uint32_t threads) {
+void PointSearch::dispatch_items(VkCommandBuffer commands, const Item& item,
+                                 const ComputeShader& shader) {
     shader.bind(commands, item.set);
-    shader.dispatch_in_parts(commands, 0, threads, [&](std::uint32_t first) {
+    shader.dispatch_in_parts(commands, 0, item.push.items, [&](std::uint32_t first) {
         push(commands, item, shader, first, plan::edge_total);
     });
 }
@@ -110,7 +106,11 @@ void PointSearch::dispatch_scan(VkCommandBuffer commands, const Item& item,
                                 std::uint32_t stage) const {
     shaders_.scan.bind(commands, item.set);
     push(commands, item, shaders_.scan, 0, stage);
-    shaders_.scan.dispatch(commands, 1);
+    const auto& room = item.capacities;
+    shaders_.scan.dispatch(commands, stage == plan::edge_total ? scan_groups(item.push.items)
+                                     : stage == plan::point_total
+                                         ? scan_groups(room[plan::edge_total])
+                                         : scan_groups_of_points(room[plan::point_total]));
 }
 
 void PointSearch::dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,

@@ -13,9 +13,8 @@
 namespace nearfield::passes {
 
 /// The passes that search for boundary points (plan::PointSearch), in a separate graph: items,
-/// edges, the ranges of each direction among the points, and points, each followed by a scan that
-/// counts what they leave to the next; at last, the points that were found are packed. The number
-/// of dispatches does not depend on that of queries.
+/// edges and points, each followed by a scan that counts what they leave to the next; at last, the
+/// points that were found are packed. The number of dispatches does not depend on that of queries.
 class PointSearch {
 public:
     PointSearch(const gpu::Device& device, const ComputeLayout& layout);
@@ -33,7 +32,7 @@ public:
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    static constexpr std::uint32_t pass_count = 10;
+    static constexpr std::uint32_t pass_count = 8;
 
     [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
         return graph_.print(format, title);
@@ -43,8 +42,8 @@ private:
     void declare();
     static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                      std::uint32_t first, std::uint32_t stage);
-    static void dispatch_known(VkCommandBuffer commands, const Item& item,
-                               const ComputeShader& shader, std::uint32_t threads);
+    static void dispatch_items(VkCommandBuffer commands, const Item& item,
+                               const ComputeShader& shader);
     void dispatch_scan(VkCommandBuffer commands, const Item& item, std::uint32_t stage) const;
     void dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                   std::uint32_t arguments) const;

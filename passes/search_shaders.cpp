@@ -4,7 +4,6 @@
 #include <shaders/search_items_comp.hpp>
 #include <shaders/search_pack_comp.hpp>
 #include <shaders/search_points_comp.hpp>
-#include <shaders/search_ranges_comp.hpp>
 #include <shaders/search_scan_comp.hpp>
 #include <shaders/search_spread_comp.hpp>
 
@@ -37,8 +36,6 @@ SearchShaders::SearchShaders(const gpu::Device& device, const ComputeLayout& lay
                          finds_pairs)),
       edges(
           make_shader(device, layout, shaders::search_edges_comp, prefix + " edges", finds_pairs)),
-      ranges(make_shader(device, layout, shaders::search_ranges_comp, prefix + " ranges",
-                         finds_pairs)),
       points(make_shader(device, layout, shaders::search_points_comp, prefix + " points",
                          finds_pairs)),
       pack(make_shader(device, layout, shaders::search_pack_comp, prefix + " packing",

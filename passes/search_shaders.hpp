@@ -9,6 +9,7 @@
 #include <vulkan/vulkan_core.h>
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 namespace nearfield::passes {
@@ -16,6 +17,17 @@ namespace nearfield::passes {
 /// Bytes of the arguments of one stage's dispatch.
 inline constexpr VkDeviceSize search_argument_bytes =
     plan::words_of_arguments * sizeof(std::uint32_t);
+
+/// The workgroups that scan the blocks of so many elements.
+[[nodiscard]] constexpr std::uint32_t scan_groups(std::uint64_t elements) {
+    constexpr std::uint64_t scanned = std::uint64_t{plan::scan_block} * plan::search_block;
+    return elements == 0 ? 1 : static_cast<std::uint32_t>((elements + scanned - 1) / scanned);
+}
+/// The same of the threads that look at so many points.
+[[nodiscard]] constexpr std::uint32_t scan_groups_of_points(std::uint32_t points) {
+    return scan_groups((std::uint64_t{points} + plan::points_per_thread - 1) /
+                       plan::points_per_thread);
+}
 
 /// The specialization constants of the shaders that include search.glsl. `finds_pairs`: the
 /// directions are found by the device, and not given in the input.
@@ -32,7 +44,6 @@ struct SearchShaders {
     ComputeShader scan;
     ComputeShader spread;
     ComputeShader edges;
-    ComputeShader ranges;
     ComputeShader points;
     ComputeShader pack;
 };

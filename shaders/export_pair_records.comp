@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// What stays on the device of the pairs of a world, one thread per point that was found.
+// What stays on the device of the points of a world's pairs that were found, a thread for as many as
+// in search_points.comp, which threads of a workgroup take in turns.
 
 #include "nearfield/nearfield.glsl"
 #include "search.glsl"
@@ -9,9 +10,6 @@
 
 layout(local_size_x = group_size) in;
 
-layout(std430, set = 0, binding = 2) readonly buffer Found {
-    uvec4 found[];  // direction, edge of A, sample on it, word
-};
 layout(std430, set = 0, binding = 3) writeonly buffer Records {
     NearfieldPairRecord records[];
 };
@@ -42,15 +40,10 @@ vec2 point_of(SearchDirectionData direction, uvec4 record) {
     return from + float(record.z) / float(parts_of(direction, record.y)) * (end - from);
 }
 
-void main() {
-    uint index = dispatched_index();
-    if (index >= scratch[record_total]) {
-        return;
-    }
-    uvec4 record = found[index];
+// `record`: direction, edge of A, sample on it, word.
+NearfieldPairRecord exported(uvec4 record, float depth) {
     SearchDirectionData direction = direction_at(record.x);
-    float touching_depth_of_b = uintBitsToFloat(direction_unit(record.x, 3u).y);
-    vec4 frame = uintBitsToFloat(scratch_unit(push.range_units + record.x));
+    vec4 frame = uintBitsToFloat(scratch_unit(push.frames + record.x));
     mat2 to_world = mat2(frame.x, frame.y, -frame.y, frame.x);
     vec2 p = point_of(direction, record);
     vec4 edge = ends_of(shape_at(direction.shape_b), record.w & point_edge_mask);
@@ -60,14 +53,33 @@ void main() {
     float distance = length(way);
     bool is_inside = (record.w & point_inside) != 0u;
     bool touches = size <= 2.0 * direction.margin;
-    bool is_unfinished = uintBitsToFloat(scratch_word(push.record_depths + index)) < 0.0;
     uint feature = record.w & point_edge_mask;
     feature |= (record.w & point_unique) != 0u ? nearfield_unique_flag : 0u;
+    float touching_depth_of_b = uintBitsToFloat(direction_unit(record.x, 3u).y);
     feature |= is_inside && size > touching_depth_of_b ? nearfield_inside_flag : 0u;
     uint flags = touches ? nearfield_touching_flag : 0u;
-    bool is_doubtful = is_unfinished || (record.w & point_doubtful) != 0u;
+    bool is_doubtful = depth < 0.0 || (record.w & point_doubtful) != 0u;
     flags |= is_doubtful ? nearfield_undecided_flag : 0u;
-    records[index] = NearfieldPairRecord(
+    return NearfieldPairRecord(
         to_world * p + frame.zw, to_world * nearest + frame.zw,
         touches ? vec2(0.0) : (is_inside ? way : -way) / distance, distance, feature, record.y, flags);
+}
+
+void main() {
+    uint block = dispatched_index() / search_block;
+    uint before = scratch_word(push.point_blocks + block);
+    uint first = points_per_thread * search_block * block + gl_LocalInvocationID.x;
+    for (uint i = 0u; i < points_per_thread; ++i) {
+        uint point = first + search_block * i;
+        if (point >= scratch[point_total]) {
+            return;
+        }
+        uvec4 record = scratch_unit(push.point_units + point);
+        uint target = before + (record.x >> local_shift);
+        record.x &= (1u << local_shift) - 1u;
+        if (record.w != 0u && target < scratch[record_total]) {
+            records[target] =
+                exported(record, uintBitsToFloat(scratch_word(push.depths + point)));
+        }
+    }
 }

@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// What stays on the device of the pairs of a world, one thread per row.
+// What stays on the device of the pairs of a world, one thread per row; and how many pairs and records
+// there are.
 
 #include "nearfield/nearfield.glsl"
 #include "push.h"
@@ -12,28 +13,34 @@ layout(local_size_x = group_size) in;
 layout(std430, set = 0, binding = 0) readonly buffer Instances {
     uvec4 instances[];
 };
-layout(std430, set = 0, binding = 1) readonly buffer Scratch {
-    uint scratch[];
+layout(std430, set = 0, binding = 1) writeonly buffer Headers {
+    uint headers[];  // two NearfieldHeader, words_between_headers apart
 };
 layout(std430, set = 0, binding = 2) readonly buffer Rows {
-    uvec4 rows[];
+    uvec4 rows[];  // in place of the first one: rows and records that there are, whether there are more
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Pairs {
     NearfieldPair pairs[];
 };
 
-layout(push_constant) uniform Push { SearchPush push; };
+layout(push_constant) uniform Push { ExportPairsPush push; };
 
 uvec4 instance_unit(uint number, uint i) {
     return instances[units_of_query + units_of_instance * number + i];
 }
 
-void main() {
-    uint row = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * group_size +
-               gl_LocalInvocationID.x;
-    if (row >= scratch[row_total]) {
-        return;
+void write_header(uint word, uint count, uint overflow) {
+    uint[18] header = uint[18](
+        count, 1u, 0u, 0u,  // points
+        6u, count, 0u, 0u,  // quads
+        (count + group_size - 1u) / group_size, 1u, 1u,  // groups
+        count, floatBitsToUint(push.origin.x), floatBitsToUint(push.origin.y), 0u, overflow, 0u, 0u);
+    for (uint i = 0u; i < 18u; ++i) {
+        headers[word + i] = header[i];
     }
+}
+
+void write_pair(uint row) {
     uvec4 first = rows[units_of_row * (row + 1u)];
     uvec4 second = rows[units_of_row * (row + 1u) + 1u];
     uvec4 third = rows[units_of_row * (row + 1u) + 2u];
@@ -43,8 +50,21 @@ void main() {
     flags |= (first.z & row_intersects) != 0u ? nearfield_intersects_flag : 0u;
     bool has_deepest = !is_undecided && third.z != no_deepest;
     float unit = uintBitsToFloat(instance_unit(first.y, 1u).z);
-    float depth = has_deepest ? unit * uintBitsToFloat(scratch[push.record_depths + third.z]) : 0.0;
+    float depth = has_deepest ? unit * uintBitsToFloat(third.w) : 0.0;
     pairs[row] = NearfieldPair(instance_unit(first.x, 3u).z, instance_unit(first.y, 3u).z,
                                first.z & row_count_mask, flags, first.w, second.x, third.x, third.y,
                                has_deepest ? third.z : nearfield_no_record, depth);
+}
+
+void main() {
+    uint row = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * group_size +
+               gl_LocalInvocationID.x;
+    uvec4 totals = rows[0];
+    if (row < totals.x) {
+        write_pair(row);
+    }
+    if (row == 0u) {
+        write_header(0u, totals.x, totals.z);
+        write_header(words_between_headers, totals.y, totals.z);
+    }
 }

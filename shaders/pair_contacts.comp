@@ -7,8 +7,9 @@
 
 #include "search.glsl"
 #include "block_sum.glsl"
-#include "found_records.glsl"
+#include "found_points.glsl"
 #include "rings_inside.glsl"
+#include "pair_totals.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -17,7 +18,7 @@ uint reverse_of(uint direction) {
     uvec2 own = direction_unit(direction, 3u).zw;
     uvec4 list = scratch_units[push.lists + units_of_list * own.y];
     uint directions = scratch[pair_total];
-    uint first = min(list.x + scratch[push.pair_blocks + own.y / search_block], directions - 1u);
+    uint first = min(list.x, directions - 1u);
     uint count = min(list.z, directions - first);
     while (count > 1u) {
         uint half_count = count / 2u;
@@ -28,44 +29,45 @@ uint reverse_of(uint direction) {
     return first;
 }
 
-// The consecutive records of a direction: the first one, and how many.
-uvec2 records_of(uint direction) {
-    uint first = first_record(direction);
-    return uvec2(first, first_record(direction + 1u) - first);
+// The points of a direction that were looked at: the first one, and the end.
+uvec2 points_of(uint direction) {
+    return uvec2(first_point(direction), first_point(direction + 1u));
 }
 
-// What the search has found about four records; 0 for those that are not asked for.
-uvec4 four_words(uint four, bvec4 asked) {
-    uvec4 words = uvec4(0u);
-    for (uint i = 0u; i < 4u; ++i) {
-        if (asked[i]) {
-            words[i] = records[4u * four + i].w;
-        }
-    }
-    return words;
+// The records of those that were found: the first one, and how many.
+uvec2 records_of(uvec2 points) {
+    uint first = found_before(points.x);
+    return uvec2(first, found_before(points.y) - first);
 }
 
-// The contacts among the records of a direction: their number, and flags.
-uint contacts_of(uint direction, uvec2 found) {
+// What the search has found about four points.
+uvec4 four_words(uint four) {
+    uint unit = push.point_units + 4u * four;
+    return uvec4(scratch_unit(unit).w, scratch_unit(unit + 1u).w, scratch_unit(unit + 2u).w,
+                 scratch_unit(unit + 3u).w);
+}
+
+// The contacts among the points of a direction: their number, and flags.
+uint contacts_of(uint direction, uvec2 points) {
     vec4 lengths = uintBitsToFloat(direction_unit(direction, 2u));
     // That of the point's place, and roundings of the distance.
     float certain = lengths.x - 1.5 * lengths.y;
-    if (found.y > max_compared_contacts) {
+    if (points.y - points.x > max_compared_contacts) {
         return row_to_resolve;
     }
     uint count = 0u;
     uint flags = 0u;
-    for (uint four = found.x / 4u; 4u * four < found.x + found.y; ++four) {
+    for (uint four = points.x / 4u; 4u * four < points.y; ++four) {
         vec4 near = four_depths(four);
-        bvec4 are_own = are_among(four, found);
-        uvec4 words = four_words(four, are_own);
-        bvec4 are_near = bvec4(uvec4(greaterThanEqual(near, vec4(0.0))) &
-                               uvec4(lessThanEqual(near, vec4(certain))));
-        uvec4 contacts = uvec4(are_own) & uvec4(are_near);
+        uvec4 words = four_words(four);
+        uvec4 found = uvec4(notEqual(words, uvec4(0u)));
+        uvec4 are_near = uvec4(greaterThanEqual(near, vec4(0.0))) &
+                         uvec4(lessThanEqual(near, vec4(certain)));
+        uvec4 contacts = found & are_near;
         count += contacts.x + contacts.y + contacts.z + contacts.w;
-        flags |= any(bvec4(uvec4(are_own) & uvec4(not(are_near)))) ? row_to_resolve : 0u;
+        flags |= (found & ~are_near) != uvec4(0u) ? row_to_resolve : 0u;
         bvec4 inside = equal(words & (point_inside | point_doubtful), uvec4(point_inside));
-        flags |= any(bvec4(uvec4(are_own) & uvec4(inside))) ? row_intersects : 0u;
+        flags |= any(inside) ? row_intersects : 0u;
     }
     return count | flags;
 }
@@ -100,15 +102,17 @@ void main() {
     uint count = 0u;
     uint unit = push.summaries + 2u * direction;
     uvec2 of_b = uvec2(0u);
+    clear_undecided();
     if (exists) {
         uint reverse = reverse_of(direction);
-        uvec2 of_a = records_of(direction);
-        of_b = records_of(reverse);
-        count = count_of(direction, reverse, of_a, of_b);
-        scratch_units[unit] = uvec4(of_a, no_deepest, count);
+        uvec2 points_of_a = points_of(direction);
+        uvec2 points_of_b = points_of(reverse);
+        count = count_of(direction, reverse, points_of_a, points_of_b);
+        scratch_units[unit] = uvec4(records_of(points_of_a), no_deepest, count);
+        of_b = records_of(points_of_b);
     }
-    uint before = sum_before(count != 0u ? 1u : 0u, push.row_blocks + direction / search_block);
+    uint before = sum_before(count != 0u ? 1u : 0u, push.block_sums + direction / search_block);
     if (exists) {
-        scratch_units[unit + 1u] = uvec4(before, of_b, 0u);
+        scratch_units[unit + 1u] = uvec4(before, of_b, no_deepest);
     }
 }

@@ -25,9 +25,7 @@ struct List {
 
 List list_of(uint a) {
     uvec4 list = scratch_unit(push.lists + units_of_list * a);
-    uint first = list.x + scratch_word(push.pair_blocks + a / search_block);
-    return List(first, list.y + scratch_word(push.list_item_blocks + a / search_block),
-                min(first + list.z, scratch[pair_total]));
+    return List(list.x, list.y, min(list.x + list.z, scratch[pair_total]));
 }
 
 // How many of the pairs of a list come before that with `b`.
@@ -97,5 +95,7 @@ void main() {
     data.reach = left_to_cpu ? -1e30 : data.reach;  // no edge comes near
     write_direction(list.first + rank, data, touching, a, b);
     write_blocks(list.first + rank, data.first_item, chunks);
+    scratch_units[push.frames + list.first + rank] =
+        floatBitsToUint(vec4(second.unit * second.axis, second.high + second.low));
     scratch[push.verdicts + list.first + rank] = left_to_cpu ? pair_left_to_cpu : 0u;
 }

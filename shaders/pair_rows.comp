@@ -2,43 +2,64 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The last step, one thread per pair: the rows of those that have points or intersect, or that the
-// CPU decides, one after the other.
+// CPU decides, one after the other; and how much was counted.
 
 #include "search.glsl"
 #include "pairs.h"
+#include "pair_totals.glsl"
 
 layout(local_size_x = group_size) in;
 
-layout(std430, set = 0, binding = 0) readonly buffer Records {
-    uvec4 records[];
-};
+#include "sums.glsl"
+
 layout(std430, set = 0, binding = 2) buffer Rows {
-    uvec4 rows[];  // in place of the first one: the number of those that the CPU decides
+    uvec4 rows[];  // in place of the first one: PairTotals
 };
 layout(std430, set = 0, binding = 2) buffer RowWords {
-    uint row_words[];  // the same memory: behind all rows, the numbers of these, in any order
+    uint row_words[];  // the same memory: behind all rows, the numbers of those that the CPU decides
 };
 
-void main() {
-    uint direction = dispatched_index();
-    if (direction >= scratch[pair_total]) {
-        return;
-    }
-    uvec4 summary = scratch_unit(push.summaries + 2u * direction);
-    uvec4 place = scratch_unit(push.summaries + 2u * direction + 1u);
-    uint target = place.x + scratch_word(push.row_blocks + direction / search_block);
-    if (summary.w == 0u || target >= scratch[row_total]) {
-        return;
-    }
+void write_row(uint direction, uint target, uvec4 summary, uvec4 place) {
     uvec4 about = direction_unit(direction, 3u);
-    bool has_deepest = summary.y > 0u && summary.z != no_deepest;
-    uvec4 deepest = has_deepest ? records[summary.z] : uvec4(0u);
+    bool has_deepest = place.w != no_deepest;
+    uvec4 deepest = has_deepest ? scratch_unit(push.point_units + place.w) : uvec4(0u);
+    uint depth = has_deepest ? scratch_word(push.depths + place.w) : 0u;
     uint unit = units_of_row * (target + 1u);
     rows[unit] = uvec4(about.z, about.w, summary.w, summary.x);
     rows[unit + 1u] = uvec4(summary.y, deepest.y, deepest.z, deepest.w);
-    rows[unit + 2u] = uvec4(place.y, place.z, summary.z, 0u);
+    rows[unit + 2u] = uvec4(place.y, place.z, has_deepest ? summary.z : no_deepest, depth);
     if ((summary.w & row_undecided) != 0u) {
         uint first = 4u * units_of_row * (push.capacity + 1u);
-        row_words[first + atomicAdd(row_words[0], 1u)] = target;
+        row_words[first + atomicAdd(pair_counts[undecided_rows], 1u)] = target;
+    }
+}
+
+// How much was counted, for the host and for results that stay on the device.
+void write_totals(uint total) {
+    uint overflow = total > push.capacity ? 1u : 0u;
+    for (uint stage = 0u; stage < row_total; ++stage) {
+        uint counted = scratch[first_counted + stage];
+        pair_counts[stage] = counted;
+        overflow |= counted > scratch[stage] ? 1u : 0u;
+    }
+    pair_counts[row_total] = total;
+    rows[0] = uvec4(min(total, push.capacity), scratch[record_total], overflow, 0u);
+}
+
+void main() {
+    uint direction = dispatched_index();
+    uint block = direction / search_block;
+    uint pairs = scratch[pair_total];
+    uint before = sum_of_words(push.block_sums, block);
+    if (direction < pairs) {
+        uvec4 summary = scratch_unit(push.summaries + 2u * direction);
+        uvec4 place = scratch_unit(push.summaries + 2u * direction + 1u);
+        uint target = before + place.x;
+        if (summary.w != 0u && target < push.capacity) {
+            write_row(direction, target, summary, place);
+        }
+    }
+    if (direction + 1u == max(pairs, 1u)) {
+        write_totals(pairs > 0u ? before + scratch_word(push.block_sums + block) : 0u);
     }
 }

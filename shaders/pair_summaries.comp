@@ -6,41 +6,65 @@
 
 #include "search.glsl"
 #include "block_sum.glsl"
-#include "found_records.glsl"
+#include "found_points.glsl"
+#include "pairs.h"
+#include "pair_totals.glsl"
 
 layout(local_size_x = group_size) in;
 
 struct Depths {
-    uint count;
-    uint deepest;  // record
+    uint found;
+    uint count;    // deeper than a touch
+    uint deepest;  // among those that were found
+    uint point;    // the deepest
     float depth;
     float second;  // the depth of the next one
     bool decided;
     bool any_is_certain;
 };
 
-void consider(uint record, float depth, float touching, float margin, inout Depths depths) {
-    depths.decided = depths.decided && depth >= 0.0 && abs(depth - touching) > margin;
-    depths.any_is_certain = depths.any_is_certain || depth > touching + margin;
-    if (depth > touching) {
-        ++depths.count;
-        bool deeper = depth > depths.depth;
-        depths.second = deeper ? depths.depth : max(depths.second, depth);
-        depths.deepest = deeper ? record : depths.deepest;
-        depths.depth = max(depth, depths.depth);
+// The larger two of four.
+vec2 largest_two(vec4 v) {
+    vec2 high = max(v.xz, v.yw);
+    vec2 low = min(v.xz, v.yw);
+    return vec2(max(high.x, high.y), max(min(high.x, high.y), max(low.x, low.y)));
+}
+
+uint sum_of(uvec4 v) {
+    return v.x + v.y + v.z + v.w;
+}
+
+void consider(uint four, float touching, float margin, inout Depths depths) {
+    vec4 all_four = four_depths(four);
+    uvec4 found = uvec4(notEqual(all_four, vec4(nothing_found)));
+    uvec4 certain = uvec4(greaterThan(abs(all_four - touching), vec4(margin))) &
+                    uvec4(greaterThanEqual(all_four, vec4(0.0)));
+    uvec4 deep = found & uvec4(greaterThan(all_four, vec4(touching)));
+    depths.decided = depths.decided && (found & ~certain) == uvec4(0u);
+    depths.any_is_certain =
+        depths.any_is_certain ||
+        (found & uvec4(greaterThan(all_four, vec4(touching + margin)))) != uvec4(0u);
+    vec4 counted = mix(vec4(0.0), all_four, bvec4(deep));
+    vec2 largest = largest_two(counted);
+    if (largest.x > depths.depth) {
+        uint own = counted.x == largest.x   ? 0u
+                   : counted.y == largest.x ? 1u
+                   : counted.z == largest.x ? 2u
+                                            : 3u;
+        depths.point = 4u * four + own;
+        depths.deepest = depths.found + (own > 0u ? found.x : 0u) + (own > 1u ? found.y : 0u) +
+                         (own > 2u ? found.z : 0u);
     }
+    depths.second = max(max(largest.y, depths.second), min(largest.x, depths.depth));
+    depths.depth = max(largest.x, depths.depth);
+    depths.count += sum_of(deep);
+    depths.found += sum_of(found);
 }
 
 Depths compare(uint first, uint end, float touching, float margin) {
-    Depths depths = Depths(0u, first, 0.0, 0.0, true, false);
+    Depths depths = Depths(0u, 0u, 0u, 0u, 0.0, 0.0, true, false);
     for (uint four = first / 4u; 4u * four < end; ++four) {
-        vec4 four_of_them = four_depths(four);
-        bvec4 are_own = are_among(four, uvec2(first, end - first));
-        for (uint i = 0u; i < 4u; ++i) {
-            if (are_own[i]) {
-                consider(4u * four + i, four_of_them[i], touching, margin, depths);
-            }
-        }
+        consider(four, touching, margin, depths);
     }
     return depths;
 }
@@ -48,12 +72,13 @@ Depths compare(uint first, uint end, float touching, float margin) {
 void main() {
     uint direction = dispatched_index();
     bool exists = direction < scratch[pair_total];
-    uint first, end;
     uint count = 0u;
     uint unit = push.summaries + 2u * direction;
+    uint point = 0u;
+    clear_undecided();
     if (exists) {
-        first = first_record(direction);
-        end = first_record(direction + 1u);
+        uint first = first_point(direction);
+        uint end = first_point(direction + 1u);
         vec4 lengths = uintBitsToFloat(direction_unit(direction, 2u));
         float touching = uintBitsToFloat(direction_unit(direction, 3u).y);
         // That of the point's place, and roundings of the distance.
@@ -67,10 +92,14 @@ void main() {
         } else if (depths.count > 0u) {
             count = depths.count | (has_rival || !depths.decided ? row_to_resolve : 0u);
         }
-        scratch_units[unit] = uvec4(first, end - first, depths.deepest, count);
+        // Points that nobody asks for have no numbers.
+        uint record = push.capacity > 0u ? found_before(first) : 0u;
+        uint records = push.capacity > 0u ? found_before(end) - record : 0u;
+        point = depths.count > 0u ? depths.point : no_deepest;
+        scratch_units[unit] = uvec4(record, records, record + depths.deepest, count);
     }
-    uint before = sum_before(count != 0u ? 1u : 0u, push.row_blocks + direction / search_block);
+    uint before = sum_before(count != 0u ? 1u : 0u, push.block_sums + direction / search_block);
     if (exists) {
-        scratch_units[unit + 1u] = uvec4(before, 0u, 0u, 0u);
+        scratch_units[unit + 1u] = uvec4(before, 0u, 0u, point);
     }
 }

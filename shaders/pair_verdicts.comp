@@ -7,6 +7,7 @@
 #include "search.glsl"
 #include "block_sum.glsl"
 #include "rings_inside.glsl"
+#include "pair_totals.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -24,11 +25,12 @@ uint count_of(uint pair) {
 
 void main() {
     uint pair = dispatched_index();
+    clear_undecided();
     bool exists = pair < scratch[pair_total];
     uint count = exists ? count_of(pair) : 0u;
-    uint before = sum_before(count != 0u ? 1u : 0u, push.row_blocks + pair / search_block);
+    uint before = sum_before(count != 0u ? 1u : 0u, push.block_sums + pair / search_block);
     if (exists) {
-        scratch_units[push.summaries + 2u * pair] = uvec4(0u, 0u, 0u, count);
-        scratch_units[push.summaries + 2u * pair + 1u] = uvec4(before, 0u, 0u, 0u);
+        scratch_units[push.summaries + 2u * pair] = uvec4(0u, 0u, no_deepest, count);
+        scratch_units[push.summaries + 2u * pair + 1u] = uvec4(before, 0u, 0u, no_deepest);
     }
 }

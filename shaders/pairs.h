@@ -70,10 +70,14 @@ struct PairRowData {
     // Contacts: those of B that were found
     uint first_of_b NEARFIELD_DEFAULT(0);
     uint count_of_b NEARFIELD_DEFAULT(0);
-    uint deepest NEARFIELD_DEFAULT(0);  // its record; of contacts: no_deepest
-    uint unused[1] NEARFIELD_DEFAULT({});
+    uint deepest NEARFIELD_DEFAULT(0);    // its record; of contacts: no_deepest
+    float depth NEARFIELD_DEFAULT(0.0F);  // its depth, in units of B's frame
 };
 const uint no_deepest = 0xffffffffu;
+// What the host reads beside the rows: by stage, how many were counted; then how many rows the CPU
+// decides.
+const uint undecided_rows = stages_of_pairs;
+const uint words_of_counts = 8u;         // whole units
 const uint words_between_headers = 64u;  // of what stays on the device: a multiple of any alignment
 const uint units_of_row = 3u;
 NEARFIELD_CHECK(sizeof(PairRowData) == 16 * units_of_row)

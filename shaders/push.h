@@ -108,29 +108,25 @@ struct SearchPush {
     uint direction_count;
     uint item_blocks;  // first words, and first units, of arrays in the scratch memory
     uint edge_blocks;
-    uint range_blocks;
     uint point_blocks;
+    uint block_sums;  // of the blocks of the elements that the last dispatch has looked at
     uint item_words;
     uint edge_units;
-    uint range_units;  // one per direction
     uint point_units;
-    uint stage;     // of search_scan.comp
-    uint capacity;  // of the elements that the stage counts
+    uint stage;     // that the shader counts
+    uint capacity;  // of its elements
     // Where the device finds the pairs: `items` and `direction_count` are not known, `directions`
     // and what follows are in the scratch memory.
-    uint second_capacity;   // of items, in the scan of pairs
+    uint second_capacity;   // of items, where pairs are counted
     uint instances;         // their number
     uint boxes;             // first unit: of the instances, then of the levels above them
     uint lists;             // first unit: one per instance, about the pairs in which it is `a`
-    uint pair_blocks;       // first words of sums over blocks of instances ...
-    uint list_item_blocks;  // ... of the items of their pairs
     uint pairs;             // first word: two per pair, in the order in which they were found
     uint first_directions;  // first word: by block of items
     uint depths;            // first word: by point
-    uint record_depths;     // first word: by found point
-    uint row_blocks;        // first word of sums over blocks of pairs
     uint summaries;         // first unit: two per pair
     uint verdicts;          // first word: by pair, what is known of their boundaries
+    uint frames;            // first unit: by pair, the frame of B in the world
 };
 
 struct PosePush {
@@ -143,7 +139,6 @@ struct PosePush {
 };
 
 struct ExportPairsPush {
-    uint capacities[6];  // by stage of the search
     vec2 origin;
 };
 

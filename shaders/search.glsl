@@ -17,8 +17,10 @@ layout(set = 0, binding = 9) uniform usamplerBuffer scratch_texels;  // and agai
 
 layout(push_constant) uniform Push { SearchPush push; };
 
-// Beside the direction of a thread's first point, from this bit on: the points found before it.
+// Beside the direction of a point, from this bit on: the points found before it in its workgroup.
 const uint local_shift = 24u;
+// In place of the depth of a point that was not found.
+const float nothing_found = -2.0;
 
 // The parts of the scratch memory that earlier dispatches have written.
 uvec4 scratch_unit(uint unit) {
@@ -99,30 +101,39 @@ uint parts_of(SearchDirectionData direction, uint edge) {
 }
 
 // The last of `count` words of the scratch memory, `stride` apart, whose value is at most `key`; the
-// values ascend.
+// values ascend. Three loads at once take half as many steps as one.
 uint last_at_most(uint key, uint first, uint count, uint stride) {
     uint last = 0u;
     while (count > 1u) {
-        uint half_count = count / 2u;
-        if (scratch_word(first + stride * (last + half_count)) <= key) {
-            last += half_count;
-            count -= half_count;
-        } else {
-            count = half_count;
-        }
+        uint step = (count + 3u) / 4u;
+        uvec3 places = step * uvec3(1u, 2u, 3u);
+        uvec3 found = min(places, uvec3(count - 1u));
+        uvec3 words = uvec3(scratch_word(first + stride * (last + found.x)),
+                            scratch_word(first + stride * (last + found.y)),
+                            scratch_word(first + stride * (last + found.z)));
+        uvec3 passed = uvec3(lessThan(places, uvec3(count))) &
+                       uvec3(lessThanEqual(words, uvec3(key)));
+        uint skipped = step * (passed.x + passed.y + passed.z);
+        last += skipped;
+        count = min(count - skipped, step);
     }
     return last;
 }
 
-// The block of elements that counts an element of the next stage. `elements`: of all blocks.
-uint block_of(uint index, uint first_block, uint elements) {
-    return last_at_most(index, first_block, (elements + search_block - 1u) / search_block, 1u);
+// The edges of the items before one, or of all.
+uint edges_before(uint item) {
+    uint total = scratch[edge_total];
+    return item < item_count()
+               ? min(scratch_word(push.item_blocks + item / search_block) +
+                         (scratch_word(push.item_words + words_of_item * item) >> 8),
+                     total)
+               : total;
 }
 
-// The points of the edges before one.
-uint points_before(uint edge) {
+// The place of the first point of an edge in the next step, among those of all edges.
+uint place_of(uint edge) {
     return scratch_word(push.edge_blocks + edge / search_block) +
-           scratch_unit(push.edge_units + units_of_edge * edge).w;
+           scratch_word(4u * (push.edge_units + units_of_edge * edge) + 3u);
 }
 
 // The steps of one walk, which are its groups and chunks, each of which takes up to ten turns of loops.

@@ -30,9 +30,10 @@ const uint points_per_thread = 4u;
 // Replaces the first word of the numbers of parts: one point per edge, its first vertex.
 const uint no_parts = 0xffffffffu;
 
-// The stages count edges, points, and points that were found: their totals are the first words of
-// the scratch memory, and each has arguments of a dispatch: three numbers of workgroups, and how
-// many were counted.
+// The stages count edges, points, and points that were found. The first words of the scratch memory
+// say of each stage how many there are and there is room for, those from first_counted on how many
+// were counted. Each has arguments of a dispatch: three numbers of workgroups, of which there is at
+// least one, and how many were counted.
 const uint edge_total = 0u;
 const uint point_total = 1u;
 const uint record_total = 2u;
@@ -43,11 +44,10 @@ const uint pair_total = 3u;
 const uint item_total = 4u;
 const uint row_total = 5u;
 const uint stages_of_pairs = 6u;
-// The points of all edges, before those of each direction are padded to whole threads; counted
-// without room for them, and without a dispatch.
-const uint edge_point_total = 6u;
-const uint words_of_totals = 8u;  // whole units
-const uint words_of_item = 2u;    // in the scratch memory: its mask of edges, and its direction
+const uint first_counted = 8u;
+const uint words_of_totals = 16u;  // whole units
+const uint scan_block = 1024u;     // blocks of elements that a workgroup of search_scan.comp scans
+const uint words_of_item = 2u;     // in the scratch memory: its mask of edges, and its direction
 const uint units_of_edge = 2u;
 const uint words_of_arguments = 4u;
 

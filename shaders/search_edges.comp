@@ -6,7 +6,7 @@
 // points that B's boundary may separate from them, or that lie within reach of it.
 
 #include "search.glsl"
-#include "block_sum.glsl"
+#include "direction_places.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -180,9 +180,11 @@ void main() {
     if (exists) {
         points = points_of(edge.x, edge.y);
     }
-    uint before = sum_before(points.count, push.edge_blocks + index / search_block);
+    bool begins = !exists || gl_LocalInvocationID.x == 0u ||
+                  scratch_unit(unit - units_of_edge).x != edge.x;
+    uint place = place_before(begins, points.count, push.block_sums + index / search_block);
     if (exists) {
-        scratch_units[unit] = uvec4(edge, points.first, before);
+        scratch_units[unit] = uvec4(edge, points.first, place);
         scratch_units[unit + 1u] = uvec4(points.ask_begin, points.ask_end, points.count, 0u);
     }
 }

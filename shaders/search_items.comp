@@ -52,7 +52,7 @@ void main() {
     bool exists = item < item_count();
     uint direction = exists ? direction_of(item) : 0u;
     uint mask = exists ? edges_of(item, direction) : 0u;
-    uint before = sum_before(bitCount(mask), push.item_blocks + item / search_block);
+    uint before = sum_before(bitCount(mask), push.block_sums + item / search_block);
     if (exists) {
         scratch[push.item_words + words_of_item * item] = mask | before << 8;
         scratch[push.item_words + words_of_item * item + 1u] = direction;

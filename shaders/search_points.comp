@@ -269,64 +269,44 @@ struct Batch {
     bvec4 asked;
 };
 
-// The last of the edges from `first` to `end - 1` that has no point after this one before it.
-uint edge_with(uint point, uint first, uint end) {
-    uint count = end - first;
-    while (count > 1u) {
-        uint half_count = count / 2u;
-        if (points_before(first + half_count) <= point) {
-            first += half_count;
-            count -= half_count;
-        } else {
-            count = half_count;
+// Fills a batch with points of the edges from `edge` to `end - 1` that have its direction. `skipped`:
+// the points of the first one that come before.
+void fill(inout Batch batch, uint edge, uint end, uint skipped) {
+    for (; batch.count < points_per_thread && edge < end; ++edge) {
+        uint unit = push.edge_units + units_of_edge * edge;
+        uvec4 about = scratch_unit(unit);
+        uvec4 asked = scratch_unit(unit + 1u);
+        if (about.x != batch.direction) {
+            break;
         }
+        uvec4 place = uvec4(0u, 1u, 2u, 3u) - batch.count;  // large before it
+        uvec4 number = about.z + skipped + place;
+        bvec4 is_own = lessThan(place, uvec4(asked.z - skipped));
+        batch.slot = mix(batch.slot, uvec4(about.y), is_own);
+        batch.number = mix(batch.number, number, is_own);
+        batch.asked = bvec4(mix(uvec4(batch.asked),
+                                uvec4(greaterThanEqual(number, asked.xxxx)) &
+                                    uvec4(lessThan(number, asked.yyyy)),
+                                is_own));
+        batch.count += asked.z - skipped;
+        skipped = 0u;
     }
-    return first;
+    batch.count = min(batch.count, points_per_thread);
 }
 
-// Edges that are looked at one after the other, since most have points, before the next one is
-// searched for.
-const uint edges_in_turn = 8u;
-
-// Fills a batch with the points from `point` on, which the edges from `first` to `end - 1` have.
-void fill(inout Batch batch, uint point, uint first, uint end) {
-    uint filled = 0u;
-    while (filled < batch.count) {
-        first = edge_with(point + filled, first, end);
-        uint skipped = point + filled - points_before(first);
-        for (uint i = 0u; i < edges_in_turn && filled < batch.count; ++i) {
-            uint unit = push.edge_units + units_of_edge * first;
-            uvec4 edge = scratch_unit(unit);
-            uvec4 asked = scratch_unit(unit + 1u);
-            uvec4 place = uvec4(0u, 1u, 2u, 3u) - filled;  // large before it
-            uvec4 number = edge.z + skipped + place;
-            bvec4 is_own = lessThan(place, uvec4(asked.z - skipped));
-            batch.slot = mix(batch.slot, uvec4(edge.y), is_own);
-            batch.number = mix(batch.number, number, is_own);
-            batch.asked = bvec4(mix(uvec4(batch.asked),
-                                    uvec4(greaterThanEqual(number, asked.xxxx)) &
-                                        uvec4(lessThan(number, asked.yyyy)),
-                                    is_own));
-            filled += asked.z - skipped;
-            skipped = 0u;
-            ++first;
-        }
-    }
-}
-
-// The points from `index` on, with those that pad each direction's to whole threads.
+// The points from a place on, which the edges of one block have.
 Batch batch_at(uint index) {
-    uint directions = direction_count();
-    uint block = block_of(index, push.range_blocks, directions);
-    uint low = block * search_block;
-    uint rest = index - scratch_word(push.range_blocks + block);
-    low += last_at_most(rest, 4u * (push.range_units + low), min(search_block, directions - low),
-                        4u);
-    uvec4 range = scratch_unit(push.range_units + low);
-    uint skipped = rest - range.x;
-    Batch batch = Batch(low, min(range.w - skipped, points_per_thread), uvec4(0u), uvec4(0u),
-                        bvec4(false));
-    fill(batch, points_before(range.y) + skipped, range.y, range.z);
+    uint edges = scratch[edge_total];
+    uint blocks = (edges + search_block - 1u) / search_block;
+    uint block = last_at_most(index, push.edge_blocks, blocks, 1u);
+    uint first = search_block * block;
+    uint end = min(first + search_block, edges);
+    uint rest = index - scratch_word(push.edge_blocks + block);
+    uint words = 4u * (push.edge_units + units_of_edge * first) + 3u;
+    uint edge = first + last_at_most(rest, words, end - first, 4u * units_of_edge);
+    uvec4 about = scratch_unit(push.edge_units + units_of_edge * edge);
+    Batch batch = Batch(about.x, 0u, uvec4(0u), uvec4(0u), bvec4(false));
+    fill(batch, edge, end, rest - about.w);
     return batch;
 }
 
@@ -366,11 +346,12 @@ void main() {
     }
     uvec4 found = uvec4(notEqual(words, uvec4(0u)));
     uint before = sum_before(found.x + found.y + found.z + found.w,
-                             push.point_blocks + thread / search_block);
+                             push.block_sums + thread / search_block);
     for (uint i = 0u; i < points_per_thread && index + i < total; ++i) {
         scratch_units[push.point_units + index + i] =
-            uvec4(batch.direction | (i == 0u ? before << local_shift : 0u), edges[i],
-                  batch.number[i], words[i]);
-        scratch[push.depths + index + i] = floatBitsToUint(depths[i]);
+            uvec4(batch.direction | before << local_shift, edges[i], batch.number[i], words[i]);
+        scratch[push.depths + index + i] =
+            floatBitsToUint(found[i] != 0u ? depths[i] : nothing_found);
+        before += found[i];
     }
 }

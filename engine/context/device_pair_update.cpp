@@ -200,8 +200,8 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
             buffers_->outputs().set(*exports, origin_);
         }
         timings.plan = total.milliseconds() - pipelines;
-        renderer.note_pairs(question_.goal, poses_.has_value(), question_.resident);
-        const passes::PairSearch& search = renderer.pair_search(question_.goal);
+        renderer.note_pairs(question_.kind(), poses_.has_value(), question_.resident);
+        const passes::PairSearch& search = renderer.pair_search(question_.kind());
         if (commands == VK_NULL_HANDLE) {
             buffers_->begin(search, shapes_, context_->memory_limit(), timings);
         } else {

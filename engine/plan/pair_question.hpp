@@ -3,7 +3,7 @@
 #include <engine/plan/error_budget.hpp>
 #include <nearfield/query.hpp>
 
-#include <cstddef>
+#include <array>
 #include <cstdint>
 
 namespace nearfield::plan {
@@ -14,7 +14,27 @@ enum class PairGoal : std::uint8_t {
     contacts,      ///< the points of either shape near the other, for ordered pairs
     tests,         ///< whether the shapes intersect, or are near each other
 };
-inline constexpr std::size_t pair_goals = 3;
+
+/// What becomes of the points that are found, beyond the answers of the pairs.
+enum class FoundPoints : std::uint8_t {
+    compared,  ///< nothing
+    numbered,  ///< they have numbers, for results that stay on the device
+    packed,    ///< the host reads them, in the order of their numbers
+};
+
+/// What the passes of a search between the pairs of a world depend on.
+struct PairSearchKind {
+    PairGoal goal{};
+    FoundPoints points{};
+
+    friend bool operator==(const PairSearchKind&, const PairSearchKind&) = default;
+};
+inline constexpr std::array<PairSearchKind, 5> pair_search_kinds{
+    {{PairGoal::penetrations, FoundPoints::compared},
+     {PairGoal::penetrations, FoundPoints::numbered},
+     {PairGoal::penetrations, FoundPoints::packed},
+     {PairGoal::contacts, FoundPoints::packed},
+     {PairGoal::tests, FoundPoints::compared}}};
 
 /// What a query asks of the device about every pair of a world's instances. World units.
 struct PairQuestion {
@@ -30,6 +50,11 @@ struct PairQuestion {
 
     /// Whether the host reads the points that are found: the rows of contacts are made of them.
     [[nodiscard]] bool reads_points() const { return records || goal == PairGoal::contacts; }
+    [[nodiscard]] PairSearchKind kind() const {
+        return {goal, reads_points() ? FoundPoints::packed
+                      : resident     ? FoundPoints::numbered
+                                     : FoundPoints::compared};
+    }
 };
 
 /// Precondition: the query is one that the device answers for all pairs of a world.

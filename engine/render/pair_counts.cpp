@@ -10,10 +10,21 @@
 namespace nearfield::render {
 namespace {
 
-/// Sums end at 2^30 (shaders/search_scan.comp), and a thread has a number of 32 bits.
+/// Sums end at 2^30 (shaders/sums.glsl), and a thread has a number of 32 bits.
 constexpr std::uint32_t max_counted = 1U << 29U;
 
+constexpr PairCounts first_of_points{16384, 16384, 4096, 4096, 1024, 1024};
+constexpr PairCounts first_of_tests{16384, 0, 0, 4096, 4096, 1024};
+
 }  // namespace
+
+PairCounts first_capacities(const plan::PairSearchKind& kind) {
+    PairCounts counts = kind.goal == plan::PairGoal::tests ? first_of_tests : first_of_points;
+    if (kind.points == plan::FoundPoints::compared) {
+        counts[plan::record_total] = 0;
+    }
+    return counts;
+}
 
 void require_countable(const PairCounts& counts) {
     if (counts[plan::pair_total] >= plan::max_pairs) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/plan/pair_question.hpp>
 #include <nearfield/status.hpp>
 
 #include <shaders/pairs.h>
@@ -13,6 +14,8 @@ namespace nearfield::render {
 /// (shaders/search.h): edges, points, points found, pairs, their items, and rows.
 using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
 
+/// Room for what a first search may find. Tests look at no points.
+[[nodiscard]] PairCounts first_capacities(const plan::PairSearchKind& kind);
 /// Throws StatusException (too_large) if no memory would be enough.
 void require_countable(const PairCounts& counts);
 /// Capacities for what a search has counted without room for all of it. Stages after one without

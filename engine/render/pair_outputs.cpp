@@ -11,8 +11,7 @@ namespace nearfield::render {
 namespace {
 
 constexpr std::array<const char*, passes::ExportPairs::set_count> names_of_output_sets{
-    "nearfield pair set of resident rows", "nearfield pair set of resident records",
-    "nearfield pair set of headers"};
+    "nearfield pair set of resident rows", "nearfield pair set of resident records"};
 constexpr VkBufferUsageFlags output_usage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
@@ -66,18 +65,15 @@ void PairOutputs::bind(const Input& input) {
         layout_->write_buffer(item_.sets[set], binding, part.buffer, 0, part.bytes);
     };
     write(ExportPairs::of_rows, Layout::tiles, input.instances);
-    write(ExportPairs::of_rows, Layout::geometry, input.scratch);
+    write(ExportPairs::of_rows, Layout::geometry, {item_.headers, 2 * bytes_between_headers});
     write(ExportPairs::of_rows, Layout::points, input.rows);
     write(ExportPairs::of_rows, Layout::output, {item_.pairs, bytes_of_pairs(pair_room_)});
     write(ExportPairs::of_records, Layout::tiles, input.shapes);
     write(ExportPairs::of_records, Layout::geometry, input.scratch);
-    write(ExportPairs::of_records, Layout::points, input.found);
     write(ExportPairs::of_records, Layout::output, {item_.records, bytes_of_records(record_room_)});
     layout_->write_texels(item_.sets[ExportPairs::of_records], Layout::texels, input.texels);
     layout_->write_texels(item_.sets[ExportPairs::of_records], Layout::scratch_texels,
                           input.scratch_texels);
-    write(ExportPairs::of_headers, Layout::tiles, input.arguments);
-    write(ExportPairs::of_headers, Layout::output, {item_.headers, 2 * bytes_between_headers});
     layout_->end_updates();
 }
 

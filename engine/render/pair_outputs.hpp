@@ -41,7 +41,7 @@ public:
     };
     struct Input {
         const passes::PairSearch::Item& search;
-        Part shapes, instances, scratch, arguments, found, rows;
+        Part shapes, instances, scratch, rows;
         VkBufferView texels, scratch_texels;
     };
     /// Says for which search the passes are recorded. The device must not be working at what was

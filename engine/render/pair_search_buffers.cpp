@@ -18,10 +18,6 @@ constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_s
     "nearfield pair set of instances", "nearfield pair set of points",
     "nearfield pair set of rows"};
 
-/// Room for what the first search may find; a test looks at no points.
-constexpr PairCounts first_capacities{16384, 16384, 4096, 4096, 1024, 1024};
-constexpr PairCounts first_of_tests{16384, 0, 0, 4096, 4096, 1024};
-
 /// Of each stage, where there is no memory for the usual ones.
 constexpr std::uint32_t least_capacity = 64;
 /// In place of the number of pairs until the device has counted them.
@@ -31,6 +27,8 @@ std::uint64_t instance_bytes(std::uint32_t count) {
     return sizeof(plan::PairQueryData) +
            count * (sizeof(SearchInstanceData) + 2 * sizeof(std::uint32_t));
 }
+
+constexpr std::uint64_t bytes_of_counts = plan::words_of_counts * sizeof(std::uint32_t);
 
 /// Rows, one more, and the numbers of those that the CPU decides.
 std::uint64_t bytes_of_rows(std::uint32_t rows) {
@@ -44,6 +42,7 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
                                      const plan::PairQuestion& question, bool timestamps)
     : device_(&device),
       layout_(&layout),
+      kind_(question.kind()),
       submission_(device),
       timestamps_(device,
                   passes::PairPoses::max_passes + passes::PairSearch::max_passes +
@@ -57,16 +56,21 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
                  "nearfield pair instances"),
       scratch_(device, scratch_usage, gpu::Direction::none, "nearfield pair scratch"),
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-                 gpu::Direction::readback, "nearfield pair arguments"),
-      records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-               question.reads_points() ? gpu::Direction::readback : gpu::Direction::none,
+                 gpu::Direction::none, "nearfield pair arguments"),
+      records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                "nearfield pair points"),
-      rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-            gpu::Direction::readback, "nearfield pair rows"),
+      rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
+            "nearfield pair rows"),
+      // Some devices read arguments much faster where the host does not.
+      count_memory_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
+                    "nearfield pair counts"),
       sets_(device, layout, names_of_pair_sets) {
     arguments_.reserve(argument_bytes(plan::stages_of_pairs));
-    item_.capacities = question.goal == plan::PairGoal::tests ? first_of_tests : first_capacities;
-    needed_.fill(least_capacity);
+    count_memory_.reserve(bytes_of_counts);
+    item_.capacities = first_capacities(kind_);
+    for (std::size_t i = 0; i < needed_.size(); ++i) {
+        needed_[i] = std::min(least_capacity, item_.capacities[i]);
+    }
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         item_.sets[i] = sets_[i];
     }
@@ -132,19 +136,17 @@ PairSearchBuffers::Bytes PairSearchBuffers::place_arrays() {
     }
     push.boxes = layout.units(boxes + push.instances);
     push.lists = layout.units(plan::units_of_list * std::uint64_t{push.instances});
-    push.pair_blocks = layout.sums(push.instances);
-    push.list_item_blocks = layout.sums(push.instances);
     push.pairs = layout.words(2 * std::uint64_t{pairs});
     push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
     push.summaries = layout.units(2 * std::uint64_t{pairs});
-    push.row_blocks = layout.sums(pairs);
     push.verdicts = layout.words(pairs);
+    push.frames = layout.units(pairs);
     push.first_directions = layout.sums(items);
-    layout.add_stages(pairs, items, edges, points, push);
-    push.depths = layout.words(points);
-    push.record_depths = layout.words(found);
-    Bytes bytes{layout.bytes(), std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData),
-                bytes_of_rows(rows)};
+    // Two sums for each block of instances, which begin whole units.
+    constexpr std::uint64_t more = 8 * plan::search_block;
+    const std::uint64_t instances = 2 * std::uint64_t{push.instances} + more;
+    layout.add_stages(items, edges, points, std::max<std::uint64_t>(pairs, instances), push);
+    Bytes bytes{layout.bytes(), records_bytes(), bytes_of_rows(rows)};
     if (outputs_.is_set()) {
         bytes.resident_records = PairOutputs::bytes_of_records(found);
         bytes.resident_rows = PairOutputs::bytes_of_pairs(rows);
@@ -184,6 +186,7 @@ void PairSearchBuffers::lay_out() {
     item_.arguments = arguments_.handle();
     item_.records = records_.handle();
     item_.rows = rows_.handle();
+    item_.counts = count_memory_.handle();
     bind();
     is_laid_out_ = true;
 }
@@ -191,27 +194,25 @@ void PairSearchBuffers::lay_out() {
 void PairSearchBuffers::bind() const {
     using Layout = passes::ComputeLayout;
     layout_->begin_updates();
-    const std::uint64_t record_bytes = records_bytes();
-    const std::uint64_t row_bytes = bytes_of_rows(item_.capacities[plan::row_total]);
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
             layout_->write_buffer(item_.sets[i], binding, buffer, 0, bytes);
         };
+        write(Layout::tiles, item_.shapes, shape_bytes_);
         write(Layout::geometry, item_.scratch, scratch_bytes_);
-        write(Layout::output, item_.arguments, argument_bytes(plan::stages_of_pairs));
         layout_->write_texels(item_.sets[i], Layout::texels, texels_.get());
         layout_->write_texels(item_.sets[i], Layout::scratch_texels, scratch_texels_.get());
         if (i == passes::PairSearch::of_rows) {
-            write(Layout::tiles, item_.records, record_bytes);
-            write(Layout::points, item_.rows, row_bytes);
-        } else {
-            write(Layout::tiles, item_.shapes, shape_bytes_);
-            if (i == passes::PairSearch::of_points) {
-                write(Layout::points, item_.records, record_bytes);
-            } else {
-                write(Layout::points, item_.instances, instance_bytes(instance_room_));
-            }
+            write(Layout::points, item_.rows, bytes_of_rows(item_.capacities[plan::row_total]));
+            write(Layout::output, item_.counts, bytes_of_counts);
+            continue;
         }
+        if (i == passes::PairSearch::of_points) {
+            write(Layout::points, item_.records, records_bytes());
+        } else {
+            write(Layout::points, item_.instances, instance_bytes(instance_room_));
+        }
+        write(Layout::output, item_.arguments, argument_bytes(plan::stages_of_pairs));
     }
     layout_->end_updates();
 }
@@ -224,7 +225,9 @@ void PairSearchBuffers::prepare(bool takes_poses) {
         is_bound_ = false;
         lay_out();
     }
-    clear_counts(arguments_, plan::stages_of_pairs);
+    // A device that is lost leaves no counts of an earlier search.
+    std::memset(count_memory_.data(), 0, bytes_of_counts);
+    count_memory_.flush();
     const std::uint32_t revision = takes_poses ? poses_.revision() : 0;
     if (!is_bound_ || bound_poses_ != revision || bound_outputs_ != outputs_.revision()) {
         is_bound_ = is_recorded_ = false;
@@ -246,8 +249,6 @@ void PairSearchBuffers::bind_ends(bool takes_poses) {
                        .shapes = {item_.shapes, shape_bytes_},
                        .instances = {item_.instances, instance_bytes(instance_room_)},
                        .scratch = {item_.scratch, scratch_bytes_},
-                       .arguments = {item_.arguments, argument_bytes(plan::stages_of_pairs)},
-                       .found = {item_.records, records_bytes()},
                        .rows = {item_.rows, bytes_of_rows(item_.capacities[plan::row_total])},
                        .texels = texels_.get(),
                        .scratch_texels = scratch_texels_.get()});
@@ -279,8 +280,16 @@ void PairSearchBuffers::submit(bool takes_poses, Timings& timings) {
     timings.record += start.milliseconds();
 }
 
+PairCounts PairSearchBuffers::read_counts() const {
+    count_memory_.invalidate();
+    PairCounts counts{};
+    std::memcpy(counts.data(), count_memory_.data(), sizeof(counts));
+    return counts;
+}
+
 void PairSearchBuffers::read_undecided() {
-    const std::uint32_t count = rows_data()[0].a;
+    std::uint32_t count = 0;
+    std::memcpy(&count, count_memory_.data() + plan::undecided_rows * sizeof(count), sizeof(count));
     const auto* const numbers =
         reinterpret_cast<const std::uint32_t*>(rows_data() + 1 + item_.capacities[plan::row_total]);
     undecided_.assign(numbers, numbers + std::min(count, counts_[plan::row_total]));
@@ -334,7 +343,7 @@ void PairSearchBuffers::finish(Timings& timings) {
         const Stopwatch waiting;
         submission_.wait();
         is_submitted_ = false;
-        read_counts(arguments_, counts_);
+        counts_ = read_counts();
         timings.device += waiting.milliseconds();
         timestamps_.collect(timings.passes);
         if (have_room(counts_, item_.capacities)) {
@@ -353,9 +362,9 @@ void PairSearchBuffers::record(VkCommandBuffer commands, const passes::PairSearc
     upload(passes, shapes, memory_limit);
     const Stopwatch start;
     prepare(poses_.is_set());
-    std::memcpy(arguments_.data() + offset_of_count(plan::pair_total), &not_counted,
+    std::memcpy(count_memory_.data() + plan::pair_total * sizeof(not_counted), &not_counted,
                 sizeof(not_counted));
-    arguments_.flush();
+    count_memory_.flush();
     device_->begin_label(commands, "nearfield");
     write_commands(commands, poses_.is_set());
     device_->end_label(commands);
@@ -365,8 +374,7 @@ void PairSearchBuffers::record(VkCommandBuffer commands, const passes::PairSearc
 
 /// Of the commands that were recorded for the host; none if the device has not executed them.
 std::optional<PairCounts> PairSearchBuffers::executed_counts() const {
-    PairCounts counts{};
-    read_counts(arguments_, counts);
+    const PairCounts counts = read_counts();
     return counts[plan::pair_total] == not_counted ? std::nullopt : std::optional(counts);
 }
 

@@ -111,7 +111,9 @@ private:
     };
     [[nodiscard]] Bytes place_arrays();
     [[nodiscard]] std::uint64_t records_bytes() const {
-        return std::max(item_.capacities[plan::record_total], 1U) * sizeof(plan::FoundPointData);
+        const std::uint32_t found =
+            kind_.points == plan::FoundPoints::packed ? item_.capacities[plan::record_total] : 0;
+        return std::max(found, 1U) * sizeof(plan::FoundPointData);
     }
     void lay_out();
     void bind() const;
@@ -122,6 +124,7 @@ private:
     void bind_ends(bool takes_poses);
     void write_commands(VkCommandBuffer commands, bool takes_poses);
     void submit(bool takes_poses, Timings& timings);
+    [[nodiscard]] PairCounts read_counts() const;
     void read_undecided();
     void read_results();
     [[nodiscard]] std::optional<PairCounts> executed_counts() const;
@@ -129,6 +132,7 @@ private:
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
+    plan::PairSearchKind kind_;
     gpu::Submission submission_;
     gpu::Timestamps timestamps_;
     const passes::PairSearch* passes_ = nullptr;  // of the last search, as is the limit
@@ -141,6 +145,7 @@ private:
     gpu::MappedBuffer arguments_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer rows_;
+    gpu::MappedBuffer count_memory_;
     gpu::Owned<VkBufferView> texels_;          // of the shapes
     gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
     passes::DescriptorSets sets_;

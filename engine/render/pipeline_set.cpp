@@ -4,6 +4,9 @@
 
 #include <shaders/number_frag.hpp>
 
+#include <algorithm>
+#include <cstddef>
+
 namespace nearfield::render {
 
 RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
@@ -40,9 +43,12 @@ ExportPipelines::ExportPipelines(const gpu::Device& device, const passes::Comput
       samples(device, layout),
       headers(device, layout) {}
 
-const passes::PairSearch& PipelineSet::pair_search(plan::PairGoal goal) const {
-    auto& search = pair_searches_[static_cast<std::size_t>(goal)];
-    return search ? *search : search.emplace(*device_, made(pair_shaders_), goal);
+const passes::PairSearch& PipelineSet::pair_search(const plan::PairSearchKind& kind) const {
+    const auto found =
+        std::find(plan::pair_search_kinds.begin(), plan::pair_search_kinds.end(), kind);
+    auto& search =
+        pair_searches_[static_cast<std::size_t>(found - plan::pair_search_kinds.begin())];
+    return search ? *search : search.emplace(*device_, made(pair_shaders_), kind);
 }
 
 void PipelineSet::make(const DeviceTechniques& techniques) const {
@@ -57,8 +63,8 @@ void PipelineSet::make(const DeviceTechniques& techniques) const {
         static_cast<void>(point_search());
         static_cast<void>(pair_poses());
         static_cast<void>(export_pairs());
-        for (std::size_t goal = 0; goal < plan::pair_goals; ++goal) {
-            static_cast<void>(pair_search(static_cast<plan::PairGoal>(goal)));
+        for (const plan::PairSearchKind& kind : plan::pair_search_kinds) {
+            static_cast<void>(pair_search(kind));
         }
     }
 }

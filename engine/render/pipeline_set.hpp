@@ -95,7 +95,7 @@ public:
     [[nodiscard]] const passes::Fields& fields() const { return made(fields_); }
     [[nodiscard]] const passes::PointSearch& point_search() const { return made(point_search_); }
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return made(pair_poses_); }
-    [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) const;
+    [[nodiscard]] const passes::PairSearch& pair_search(const plan::PairSearchKind& kind) const;
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return made(export_pairs_); }
 
     /// The time that making them has taken.
@@ -124,7 +124,8 @@ private:
     mutable std::optional<passes::PairPoses> pair_poses_;
     mutable std::optional<passes::ExportPairs> export_pairs_;
     mutable std::optional<passes::PairShaders> pair_shaders_;
-    mutable std::array<std::optional<passes::PairSearch>, plan::pair_goals> pair_searches_;
+    mutable std::array<std::optional<passes::PairSearch>, plan::pair_search_kinds.size()>
+        pair_searches_;
 };
 
 }  // namespace nearfield::render

@@ -70,7 +70,7 @@ std::unique_ptr<BatchResources> Renderer::make_resources() {
 }
 
 std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQuestion& question) {
-    static_cast<void>(passes_.pair_search(question.goal));
+    static_cast<void>(passes_.pair_search(question.kind()));
     return std::make_unique<PairSearchBuffers>(*device_, layout_, question, timestamps_);
 }
 
@@ -257,7 +257,7 @@ std::string Renderer::print(GraphFormat format) const {
         if (last_pairs_->takes_poses) {
             add(pair_poses(), "poses of pairs");
         }
-        add(pair_search(last_pairs_->goal), "pairs");
+        add(pair_search(last_pairs_->kind), "pairs");
         if (last_pairs_->is_resident) {
             add(export_pairs(), "resident pairs");
         }

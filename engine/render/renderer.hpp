@@ -48,14 +48,14 @@ public:
         const plan::PairQuestion& question);
     /// The passes of such searches, those before them that take poses of the host, and those after
     /// them whose results stay on the device.
-    [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) const {
-        return passes_.pair_search(goal);
+    [[nodiscard]] const passes::PairSearch& pair_search(const plan::PairSearchKind& kind) const {
+        return passes_.pair_search(kind);
     }
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return passes_.pair_poses(); }
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return passes_.export_pairs(); }
     /// Says that such a search is recorded, for print().
-    void note_pairs(plan::PairGoal goal, bool takes_poses, bool is_resident) {
-        last_pairs_ = {goal, takes_poses, is_resident};
+    void note_pairs(const plan::PairSearchKind& kind, bool takes_poses, bool is_resident) {
+        last_pairs_ = {kind, takes_poses, is_resident};
     }
     /// The time that making pipelines has taken, which is in no other time.
     [[nodiscard]] double pipeline_milliseconds() const { return passes_.milliseconds(); }
@@ -117,7 +117,7 @@ private:
     bool last_had_samples_ = false;
     bool last_had_searches_ = false;
     struct Pairs {
-        plan::PairGoal goal;
+        plan::PairSearchKind kind;
         bool takes_poses;
         bool is_resident;
     };

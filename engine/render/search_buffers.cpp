@@ -58,10 +58,13 @@ void SearchBuffers::upload(const plan::SearchShapes& shapes, const plan::PointSe
     item_.push.items = search.items;
     item_.push.directions = static_cast<std::uint32_t>(shapes.units().size());
     item_.push.direction_count = static_cast<std::uint32_t>(search.directions.size());
-    // The threads of each direction may have room for a few points more.
+    const std::uint32_t max_edges = rounded_up(search.max_edges);
     const std::uint32_t max_points = rounded_up(search.max_points);
-    const std::uint32_t max_padding = (plan::points_per_thread - 1) * item_.push.direction_count;
-    max_counts_ = {rounded_up(search.max_edges), max_points + max_padding, max_points};
+    // The threads of each direction, and of each of its blocks of edges, may have room for a few
+    // points more.
+    const std::uint32_t max_parts = item_.push.direction_count + max_edges / plan::search_block + 1;
+    const std::uint32_t max_padding = (plan::points_per_thread - 1) * max_parts;
+    max_counts_ = {max_edges, max_points + max_padding, max_points};
     lay_out(expected);
 }
 
@@ -71,8 +74,7 @@ void SearchBuffers::lay_out(const SearchCounts& expected) {
     }
     const auto [edges, points, found] = item_.capacities;
     ScratchLayout layout;
-    layout.add_stages(item_.push.direction_count, item_.push.items, edges, points, item_.push);
-    item_.push.depths = layout.words(points);
+    layout.add_stages(item_.push.items, edges, points, 0, item_.push);
     scratch_bytes_ = layout.bytes();
     reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
                         "nearfield search scratch texels");

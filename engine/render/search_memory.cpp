@@ -1,5 +1,6 @@
 #include <engine/render/search_memory.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 namespace nearfield::render {
@@ -14,16 +15,17 @@ std::uint32_t ScratchLayout::sums(std::uint64_t elements) {
     return words((elements + plan::search_block - 1) / plan::search_block + 1);
 }
 
-void ScratchLayout::add_stages(std::uint64_t directions, std::uint64_t items, std::uint64_t edges,
-                               std::uint64_t points, plan::SearchPush& push) {
+void ScratchLayout::add_stages(std::uint64_t items, std::uint64_t edges, std::uint64_t points,
+                               std::uint64_t others, plan::SearchPush& push) {
+    const std::uint64_t threads = points / plan::points_per_thread + 1;
+    push.block_sums = sums(std::max({items, edges, threads, others}));
     push.item_blocks = sums(items);
     push.item_words = words(plan::words_of_item * items);
     push.edge_blocks = sums(edges);
     push.edge_units = units(plan::units_of_edge * edges);
-    push.range_blocks = sums(directions);
-    push.range_units = units(directions);
-    push.point_blocks = sums(points / plan::points_per_thread + 1);
+    push.point_blocks = sums(threads);
     push.point_units = units(points);
+    push.depths = words(points);
 }
 
 bool reserve_with_texels(const gpu::Device& device, gpu::MappedBuffer& buffer,

@@ -22,9 +22,10 @@ public:
     [[nodiscard]] std::uint32_t units(std::uint64_t count) { return words(4 * count) / 4; }
     /// The sums of the blocks of so many elements, in words.
     [[nodiscard]] std::uint32_t sums(std::uint64_t elements);
-    /// Adds the arrays of directions, their items, edges and points.
-    void add_stages(std::uint64_t directions, std::uint64_t items, std::uint64_t edges,
-                    std::uint64_t points, plan::SearchPush& push);
+    /// Adds the arrays of items, edges and points, and one for the sums of the blocks of any of
+    /// these, or of so many other elements.
+    void add_stages(std::uint64_t items, std::uint64_t edges, std::uint64_t points,
+                    std::uint64_t others, plan::SearchPush& push);
 
     [[nodiscard]] std::uint64_t bytes() const { return words_ * sizeof(std::uint32_t); }
 
