@@ -50,7 +50,7 @@ bool DevicePairTableBase::State::do_intersect(const plan::PairRowData& data) {
 
 void DevicePairTableBase::State::row(std::uint32_t index, PairRow<ContactQuery>& row) {
     const std::uint32_t number = device_row("row", index);
-    const plan::PairRowData& data = pair_of(number);
+    const plan::PairRowData data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<ContactResult>(*decided));
         return;

@@ -83,8 +83,8 @@ double DevicePairTableBase::State::rounding_of(const PairInstance& entry) const 
     return plan::rounding_of_host_pose(polygon, magnitude);
 }
 
-const plan::PairRowData& DevicePairTableBase::State::pair_of(std::uint32_t device_row) {
-    const plan::PairRowData& data = buffers_->rows()[device_row];
+plan::PairRowData DevicePairTableBase::State::pair_of(std::uint32_t device_row) {
+    const plan::PairRowData data = buffers_->rows()[device_row];
     if (poses_) {
         take_pose(data.a);
         take_pose(data.b);

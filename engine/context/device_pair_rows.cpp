@@ -202,7 +202,7 @@ void DevicePairTableBase::State::add_points(std::uint32_t first, std::uint32_t c
 
 void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
     const std::uint32_t number = device_row("row", index);
-    const plan::PairRowData& data = pair_of(number);
+    const plan::PairRowData data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<PenetrationResult>(*decided));
         return;
@@ -225,7 +225,7 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQue
 
 void DevicePairTableBase::State::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
     const std::uint32_t number = device_row("row", index);
-    const plan::PairRowData& data = pair_of(number);
+    const plan::PairRowData data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<IntersectionTestResult>(*decided));
         return;
@@ -246,7 +246,7 @@ void DevicePairTableBase::State::records(std::uint32_t index,
                                          std::vector<PenetrationRecord>& records) {
     require_records();
     const std::uint32_t number = device_row("records", index);
-    const plan::PairRowData& data = pair_of(number);
+    const plan::PairRowData data = pair_of(number);
     // As row() has it.
     if (find_decided(number) != nullptr || (data.count & plan::row_to_resolve) != 0) {
         records = std::get<PenetrationResult>(answer_on_cpu(data, true)).records;

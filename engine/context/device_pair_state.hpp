@@ -103,7 +103,7 @@ private:
     /// Says where the device finds the host's poses. `call`: for messages.
     void find_poses(const char* call);
     /// What the device has found out about a pair; the poses of both instances are taken.
-    [[nodiscard]] const plan::PairRowData& pair_of(std::uint32_t device_row);
+    [[nodiscard]] plan::PairRowData pair_of(std::uint32_t device_row);
     void take_pose(std::uint32_t number);
     void require_usable_poses();
     /// What the device has lost where it took the pose of an instance.
@@ -135,7 +135,7 @@ private:
     template <class Query>
     void row_of_cpu(std::uint32_t index, PairRow<Query>& row) {
         const std::uint32_t number = device_row("row", index);
-        const plan::PairRowData& data = pair_of(number);
+        const plan::PairRowData data = pair_of(number);
         const AnyResult* const decided = find_decided(number);
         const AnyResult& answer = decided != nullptr ? *decided : answer_on_cpu(data, false);
         fill(row, data, std::get<typename Query::Result>(answer));

@@ -129,7 +129,7 @@ void DevicePairTableBase::State::decide() {
         cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, decided_results_);
     checkpoint();  // what was cut must not look whole
     for (std::size_t i = 0; i < undecided.size(); ++i) {
-        const plan::PairRowData& data = buffers_->rows()[undecided[i]];
+        const plan::PairRowData data = buffers_->rows()[undecided[i]];
         decided_.push_back({undecided[i], is_hit(decided_results_.results[i], data)});
     }
     const bool are_all_rows = std::all_of(decided_.begin(), decided_.end(),

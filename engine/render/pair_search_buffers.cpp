@@ -59,7 +59,9 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
                  gpu::Direction::none, "nearfield pair arguments"),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                "nearfield pair points"),
-      rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
+      // The host hardly reads rows that are resident: they lie in memory of the device.
+      rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            question.resident ? gpu::Direction::upload : gpu::Direction::readback,
             "nearfield pair rows"),
       // Some devices read arguments much faster where the host does not.
       count_memory_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
