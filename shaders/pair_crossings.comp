@@ -104,8 +104,12 @@ uint verdict_of(uint direction_index, uint edge_slot) {
         while (chunks != 0u) {
             uint chunk = chunk_size * walk.group + take_bit(chunks);
             uint end = edges_end(b, chunk);
-            for (uint slot = chunk_size * chunk; slot < end; ++slot) {
-                verdict |= verdict_on(from, to, floats_at(b.edges + slot), limits);
+            uint slot = chunk_size * chunk;
+            vec4 next = floats_at(b.edges + slot);
+            for (; slot < end; ++slot) {
+                vec4 other = next;
+                next = floats_at(b.edges + slot + 1u);
+                verdict |= verdict_on(from, to, other, limits);
             }
         }
         uint box;

@@ -34,8 +34,7 @@ uint sum_of(uvec4 v) {
     return v.x + v.y + v.z + v.w;
 }
 
-void consider(uint four, float touching, float margin, inout Depths depths) {
-    vec4 all_four = four_depths(four);
+void consider(vec4 all_four, uint four, float touching, float margin, inout Depths depths) {
     uvec4 found = uvec4(notEqual(all_four, vec4(nothing_found)));
     uvec4 certain = uvec4(greaterThan(abs(all_four - touching), vec4(margin))) &
                     uvec4(greaterThanEqual(all_four, vec4(0.0)));
@@ -63,8 +62,13 @@ void consider(uint four, float touching, float margin, inout Depths depths) {
 
 Depths compare(uint first, uint end, float touching, float margin) {
     Depths depths = Depths(0u, 0u, 0u, 0u, 0.0, 0.0, true, false);
-    for (uint four = first / 4u; 4u * four < end; ++four) {
-        consider(four, touching, margin, depths);
+    uint four = first / 4u;
+    vec4 next = first < end ? four_depths(four) : vec4(nothing_found);
+    for (; 4u * four < end; ++four) {
+        vec4 all_four = next;
+        // While these are compared, the next ones are on their way.
+        next = four_depths(4u * four + 4u < end ? four + 1u : four);
+        consider(all_four, four, touching, margin, depths);
     }
     return depths;
 }

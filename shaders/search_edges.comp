@@ -93,8 +93,11 @@ void enter(inout Walk walk, Line line, Shape b, vec4 margin, bool sides) {
 
 void consider_chunk(Line line, Shape b, uint chunk, vec4 margin, inout Stretch stretch) {
     uint end = edges_end(b, chunk);
-    for (uint slot = chunk_size * chunk; slot < end; ++slot) {
-        vec4 edge = floats_at(b.edges + slot);
+    uint slot = chunk_size * chunk;
+    vec4 next = floats_at(b.edges + slot);
+    for (; slot < end; ++slot) {
+        vec4 edge = next;
+        next = floats_at(b.edges + slot + 1u);
         vec4 edge_box = vec4(min(edge.xy, edge.zw), max(edge.xy, edge.zw));
         vec2 t = interval_in(line, edge_box + margin);
         if (line.along != vec2(0.0)) {

@@ -93,8 +93,12 @@ bvec4 find_inside(Points p, bvec4 asked, Shape b, inout bool too_long) {
         while (chunks != 0u) {
             uint chunk = chunk_size * walk.group + take_bit(chunks);
             uint end = edges_end(b, chunk);
-            for (uint slot = chunk_size * chunk; slot < end; ++slot) {
-                odd ^= uvec4(cross_edge(p, floats_at(b.edges + slot)));
+            uint slot = chunk_size * chunk;
+            vec4 next = floats_at(b.edges + slot);
+            for (; slot < end; ++slot) {
+                vec4 edge = next;
+                next = floats_at(b.edges + slot + 1u);
+                odd ^= uvec4(cross_edge(p, edge));
             }
         }
         uint box;
@@ -109,9 +113,13 @@ bvec4 find_inside(Points p, bvec4 asked, Shape b, inout bool too_long) {
 
 void consider_chunk(Points p, Shape b, uint chunk, inout Nearest nearest) {
     uint end = edges_end(b, chunk);
-    for (uint slot = chunk_size * chunk; slot < end; ++slot) {
+    uint slot = chunk_size * chunk;
+    vec4 next = floats_at(b.edges + slot);
+    for (; slot < end; ++slot) {
+        vec4 ends = next;
+        next = floats_at(b.edges + slot + 1u);
         vec4 x, y, squared;
-        find_on_edge(p, floats_at(b.edges + slot), x, y, squared);
+        find_on_edge(p, ends, x, y, squared);
         bvec4 nearer = lessThan(squared, nearest.squared);
         nearest.squared = min(squared, nearest.squared);
         nearest.x = mix(nearest.x, x, nearer);
@@ -189,9 +197,13 @@ void compare_chunk(Points p, Shape b, uint chunk, Nearest nearest, vec4 near, uv
     float same = 16.0 * direction.margin * direction.margin;
     uint first = word_at(b.infos + chunk) >> 4;
     uint end = edges_end(b, chunk);
-    for (uint slot = chunk_size * chunk; slot < end; ++slot) {
+    uint slot = chunk_size * chunk;
+    vec4 next = floats_at(b.edges + slot);
+    for (; slot < end; ++slot) {
+        vec4 ends = next;
+        next = floats_at(b.edges + slot + 1u);
         vec4 x, y, squared;
-        find_on_edge(p, floats_at(b.edges + slot), x, y, squared);
+        find_on_edge(p, ends, x, y, squared);
         vec4 distances = sqrt(squared);
         vec4 apart = (x - nearest.x) * (x - nearest.x) + (y - nearest.y) * (y - nearest.y);
         uvec4 number = uvec4(first + slot % chunk_size);
