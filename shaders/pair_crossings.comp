@@ -79,8 +79,10 @@ uint verdict_on(vec2 a, vec2 b, vec4 edge, Limits limits) {
 void enter(inout Walk walk, Shape b, vec4 own) {
     Group group = group_of(b, walk.level, walk.group);
     uint boxes = 0u;
+    vec4 next = floats_at(group.first);
     for (uint i = 0u; i < group.count; ++i) {
-        vec4 box = floats_at(group.first + i);
+        vec4 box = next;
+        next = floats_at(group.first + i + 1u);
         bool visit = all(lessThanEqual(box.xy, own.zw)) && all(lessThanEqual(own.xy, box.zw));
         boxes |= visit ? 1u << i : 0u;
     }

@@ -83,8 +83,10 @@ struct Stretch {
 void enter(inout Walk walk, Line line, Shape b, vec4 margin, bool sides) {
     Group group = group_of(b, walk.level, walk.group);
     uint boxes = 0u;
+    vec4 next = floats_at(group.first);
     for (uint i = 0u; i < group.count; ++i) {
-        vec4 box = floats_at(group.first + i);
+        vec4 box = next;
+        next = floats_at(group.first + i + 1u);
         vec2 t = interval_in(line, box + margin);
         boxes |= t.x <= t.y || (sides && rays_meet(line, box)) ? 1u << i : 0u;
     }

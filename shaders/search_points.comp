@@ -82,8 +82,10 @@ bvec4 find_inside(Points p, bvec4 asked, Shape b, inout bool too_long) {
     for (uint steps = 0u; steps < max_steps; ++steps) {
         Group group = group_of(b, walk.level, walk.group);
         uint boxes = 0u;
+        vec4 next_box_of_group = floats_at(group.first);
         for (uint i = 0u; i < group.count; ++i) {
-            vec4 box = floats_at(group.first + i);
+            vec4 box = next_box_of_group;
+            next_box_of_group = floats_at(group.first + i + 1u);
             bool visit = highest >= box.y && lowest <= box.w && leftmost <= box.z;
             boxes |= visit ? 1u << i : 0u;
         }
@@ -151,8 +153,10 @@ void enter(inout Walk walk, Points p, Shape b, float reach) {
     Group group = group_of(b, walk.level, walk.group);
     float limit = (p.radius + reach) * (p.radius + reach);
     uint boxes = 0u;
+    vec4 next = floats_at(group.first);
     for (uint i = 0u; i < group.count; ++i) {
-        vec4 box = floats_at(group.first + i);
+        vec4 box = next;
+        next = floats_at(group.first + i + 1u);
         boxes |= squared_distance_to_box(p.centre, box) <= limit ? 1u << i : 0u;
     }
     add_boxes(walk, boxes);
