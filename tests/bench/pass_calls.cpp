@@ -37,6 +37,8 @@ std::vector<Pass> passes;
 bool is_in_pass = false;
 std::map<VkBuffer, Place> places;
 std::map<VkDeviceMemory, Mapped> mapped;
+std::map<VkDeviceMemory, VkDevice> mappable;  // and its device
+VkPhysicalDeviceMemoryProperties memory_properties;
 std::map<VkDescriptorSet, std::map<std::uint32_t, VkDescriptorBufferInfo>> sets;  // by binding
 
 /// The driver's own entry point with this name.
@@ -118,6 +120,20 @@ VkResult VKAPI_CALL bind_memory(VkDevice device, VkBuffer buffer, VkDeviceMemory
     static const auto next = below<PFN_vkBindBufferMemory>("vkBindBufferMemory");
     return next(device, buffer, memory, offset);
 }
+VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                    const VkAllocationCallbacks* callbacks,
+                                    VkDeviceMemory* memory) {
+    static const auto next = below<PFN_vkAllocateMemory>("vkAllocateMemory");
+    const VkResult result = next(device, info, callbacks, memory);
+    const VkMemoryPropertyFlags flags =
+        memory_properties.memoryTypes[info->memoryTypeIndex].propertyFlags;
+    mapped.erase(*memory);
+    mappable.erase(*memory);
+    if (result == VK_SUCCESS && (flags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0) {
+        mappable[*memory] = device;
+    }
+    return result;
+}
 VkResult VKAPI_CALL map_memory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset,
                                VkDeviceSize size, VkMemoryMapFlags flags, void** data) {
     static const auto next = below<PFN_vkMapMemory>("vkMapMemory");
@@ -131,10 +147,20 @@ PFN_vkVoidFunction erased(Function function) {
     return reinterpret_cast<PFN_vkVoidFunction>(function);
 }
 
+/// Maps memory that the library leaves to the device.
+Mapped mapped_by_all_means(VkDeviceMemory memory) {
+    const auto found = mappable.find(memory);
+    if (mapped[memory].data == nullptr && found != mappable.end()) {
+        void* data = nullptr;
+        static_cast<void>(map_memory(found->second, memory, 0, VK_WHOLE_SIZE, 0, &data));
+    }
+    return mapped[memory];
+}
+
 /// Workgroups in three dimensions, and the number that was counted.
 void add_counted(const Indirect& one, PassCalls& calls) {
     const Place& place = places.at(one.buffer);
-    const Mapped& memory = mapped[place.memory];
+    const Mapped memory = mapped_by_all_means(place.memory);
     if (memory.data == nullptr) {
         return;
     }
@@ -147,6 +173,10 @@ void add_counted(const Indirect& one, PassCalls& calls) {
 }  // namespace
 
 void count_passes(test_support::Lies& lies) {
+    lies.memory = [](VkPhysicalDeviceMemoryProperties& properties) {
+        memory_properties = properties;
+    };
+    lies.entry_points["vkAllocateMemory"] = erased(&allocate_memory);
     lies.entry_points["vkCmdResetQueryPool"] = erased(&reset);
     lies.entry_points["vkCmdWriteTimestamp"] = erased(&timestamp);
     lies.entry_points["vkCmdDispatch"] = erased(&dispatch);

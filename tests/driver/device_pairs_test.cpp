@@ -24,7 +24,7 @@ using test_support::name_of;
 
 /// More than there is room for at first.
 constexpr std::uint32_t pairs_found = 20'000;
-constexpr std::uint32_t word_of_pairs = plan::words_of_arguments * plan::pair_total + 3;
+constexpr std::uint32_t word_of_pairs = plan::pair_total;
 
 /// How a table is brought up to date.
 enum class Way {

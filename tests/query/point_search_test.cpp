@@ -1,3 +1,4 @@
+#include <shaders/search.h>
 #include <tests/query/agreement.hpp>
 #include <tests/query/all_numbers.hpp>
 #include <tests/query/check.hpp>
@@ -329,12 +330,10 @@ TEST_F(PointSearch, IsDividedWhereItMayFindMuch) {
     Results results;
     ASSERT_TRUE(context().run(batch, results).ok());
     check_penetration(placed, PenetrationPoints::boundary, results[handles.front()]);
-    for (const auto handle : handles) {
-        EXPECT_GT(results[handle].count, 100U);
-    }
     const std::vector<double> first = numbers(context(), placed.penetration());
     std::vector<double> six;
-    for (std::size_t i = 0; i < handles.size(); ++i) {
+    for (const auto handle : handles) {
+        EXPECT_GT(results[handle].count, 100U);
         six.insert(six.end(), first.begin(), first.end());
     }
     EXPECT_EQ(all_numbers(results), six);
@@ -359,6 +358,19 @@ TEST_F(PointSearch, HoldsForTensOfThousandsOfEdges) {
     const PenetrationResult expected = run_alone(context(), query);
     check_agreement({placed, query}, found, by_technique_of(found, expected));
     EXPECT_GT(found.count, 100U);
+}
+
+// Three times as many blocks of edges as one workgroup scans.
+TEST_F(PointSearch, HoldsForManyBlocks) {
+    Random random(seed + 7000);
+    const Rings large = coast(random, 3 * plan::scan_block * plan::search_block, 0.1);
+    const Pair pair{{"coast", large}, {"square", rectangle({-0.8, -2}, {2, 2})}, {}, {}, 0.01};
+    const PlacedPair placed(context(), pair, Technique::compute);
+    PenetrationQuery query = placed.penetration(PenetrationPoints::vertices);
+    const std::uint32_t found = run_alone(context(), query).count;
+    query.technique = Technique::cpu;
+    EXPECT_EQ(found, run_alone(context(), query).count);
+    EXPECT_GT(found, 100'000U);
 }
 
 // What is kept of shapes that change, grow and shrink never shows.
