@@ -19,8 +19,11 @@ vec4 box_of_vertices(Shape shape, mat2 frame) {
     vec4 box = empty_box;
     for (uint chunk = 0u; chunk < shape.chunks; ++chunk) {
         uint end = edges_end(shape, chunk);
-        for (uint slot = chunk_size * chunk; slot < end; ++slot) {
-            vec2 vertex = frame * floats_at(shape.edges + slot).xy;
+        uint slot = chunk_size * chunk;
+        vec2 next = floats_at(shape.edges + slot).xy;
+        for (; slot < end; ++slot) {
+            vec2 vertex = frame * next;
+            next = floats_at(shape.edges + slot + 1u).xy;
             box = merged(box, vertex.xyxy);
         }
     }

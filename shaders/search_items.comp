@@ -35,8 +35,10 @@ uint edges_of(uint item, uint direction_index) {
     bool crosses = finds_pairs && direction.outside != 0.0;
     uint info = word_at(a.infos + chunk);
     uint mask = 0u;
+    vec4 next = floats_at(a.edges + chunk_size * chunk);
     for (uint i = 0u; i < (info & 15u); ++i) {
-        vec4 edge = floats_at(a.edges + chunk_size * chunk + i);
+        vec4 edge = next;
+        next = floats_at(a.edges + chunk_size * chunk + i + 1u);
         vec2 from = placed(direction, edge.xy);
         vec2 to = placed(direction, edge.zw);
         if (overlap(vec4(min(from, to), max(from, to)), near) &&
