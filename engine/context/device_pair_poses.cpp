@@ -83,12 +83,16 @@ double DevicePairTableBase::State::rounding_of(const PairInstance& entry) const 
     return plan::rounding_of_host_pose(polygon, magnitude);
 }
 
+void DevicePairTableBase::State::take_poses(const plan::PairRowData& pair) {
+    if (poses_) {
+        take_pose(pair.a);
+        take_pose(pair.b);
+    }
+}
+
 plan::PairRowData DevicePairTableBase::State::pair_of(std::uint32_t device_row) {
     const plan::PairRowData data = buffers_->rows()[device_row];
-    if (poses_) {
-        take_pose(data.a);
-        take_pose(data.b);
-    }
+    take_poses(data);
     return data;
 }
 

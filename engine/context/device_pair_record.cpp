@@ -51,7 +51,7 @@ void DevicePairTableBase::State::collect_recorded() {
     }
     rows = 0;
     decided_.clear();
-    device_rows_.clear();
+    dropped_rows_.clear();
     timings.decode = 0.0;
     for (PassTime& pass : timings.passes) {
         pass.milliseconds = 0.0;

@@ -112,7 +112,16 @@ std::uint32_t DevicePairTableBase::State::device_row(const char* call, std::uint
         refuse(call, "there is no row " + std::to_string(index) + "; the table has " +
                          std::to_string(rows));
     }
-    return device_rows_.empty() ? index : device_rows_[index];
+    // A dropped row comes before that of the table if fewer than `index` others lie before it.
+    std::uint32_t dropped = 0;
+    auto count = static_cast<std::uint32_t>(dropped_rows_.size());
+    while (count > 0) {
+        const std::uint32_t half = count / 2;
+        const bool is_before = dropped_rows_[dropped + half] - (dropped + half) <= index;
+        dropped += is_before ? half + 1 : 0;
+        count = is_before ? count - half - 1 : half;
+    }
+    return index + dropped;
 }
 
 const AnyResult* DevicePairTableBase::State::find_decided(std::uint32_t row) const {

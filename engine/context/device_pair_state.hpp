@@ -83,8 +83,9 @@ private:
     };
     /// A row that the CPU decided. Its answer is the result with the same index.
     struct Decided {
-        std::uint32_t row = 0;  // of the device
-        bool has_row = false;   // in the table
+        std::uint32_t row = 0;   // of the device
+        bool has_row = false;    // in the table
+        plan::PairRowData pair;  // its instances
     };
 
     void start_anew();
@@ -105,6 +106,8 @@ private:
     /// What the device has found out about a pair; the poses of both instances are taken.
     [[nodiscard]] plan::PairRowData pair_of(std::uint32_t device_row);
     void take_pose(std::uint32_t number);
+    /// Those of a pair, if they are the host's.
+    void take_poses(const plan::PairRowData& pair);
     void require_usable_poses();
     /// What the device has lost where it took the pose of an instance.
     [[nodiscard]] double rounding_of(const PairInstance& entry) const;
@@ -178,8 +181,8 @@ private:
     std::vector<Vector2> places_;   // of the instances
     std::vector<Decided> decided_;  // in ascending order of the rows
     Results decided_results_;
-    std::vector<std::uint32_t> device_rows_;  // by row; empty: they are the same
-    plan::Plan plan_;                         // for reading rows, as are those that follow
+    std::vector<std::uint32_t> dropped_rows_;  // of the device, in ascending order
+    plan::Plan plan_;                          // for reading rows, as are those that follow
     std::vector<std::uint32_t> words_;
     std::vector<AnyQuery> cpu_queries_;
     Results cpu_results_;

@@ -72,7 +72,7 @@ void DevicePairTableBase::State::start_anew() {
     set_submitted(false);
     frame_.reset();
     decided_.clear();
-    device_rows_.clear();
+    dropped_rows_.clear();
     instances_.clear();
     indices_.clear();
     membership_ = shapes_revision_ = 0;
@@ -123,27 +123,24 @@ void DevicePairTableBase::State::decide() {
     const std::span<const std::uint32_t> undecided = buffers_->undecided();
     cpu_queries_.clear();
     for (const std::uint32_t i : undecided) {
-        cpu_queries_.emplace_back(query_on_cpu(pair_of(i), false));
+        // Where the row lies in memory of the device, each read of it takes long.
+        const plan::PairRowData& row = buffers_->rows()[i];
+        const plan::PairRowData pair{.a = row.a, .b = row.b};
+        take_poses(pair);
+        decided_.push_back({i, false, pair});
+        cpu_queries_.emplace_back(query_on_cpu(pair, false));
     }
     context_->ring().answer(
         cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, decided_results_);
     checkpoint();  // what was cut must not look whole
-    for (std::size_t i = 0; i < undecided.size(); ++i) {
-        const plan::PairRowData data = buffers_->rows()[undecided[i]];
-        decided_.push_back({undecided[i], is_hit(decided_results_.results[i], data)});
-    }
-    const bool are_all_rows = std::all_of(decided_.begin(), decided_.end(),
-                                          [](const Decided& one) { return one.has_row; });
-    if (!are_all_rows) {
-        std::size_t next = 0;
-        for (std::uint32_t i = 0; i < rows; ++i) {
-            const bool is_decided = next < decided_.size() && decided_[next].row == i;
-            if (!is_decided || decided_[next++].has_row) {
-                device_rows_.push_back(i);
-            }
+    for (std::size_t i = 0; i < decided_.size(); ++i) {
+        Decided& one = decided_[i];
+        one.has_row = is_hit(decided_results_.results[i], one.pair);
+        if (!one.has_row) {
+            dropped_rows_.push_back(one.row);
         }
-        rows = static_cast<std::uint32_t>(device_rows_.size());
     }
+    rows -= static_cast<std::uint32_t>(dropped_rows_.size());
     timings.decode = start.milliseconds();
 }
 
@@ -163,7 +160,7 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
     check(call);
     rows = 0;
     decided_.clear();
-    device_rows_.clear();
+    dropped_rows_.clear();
     timings.plan = timings.record = timings.device = timings.decode = 0.0;
     for (PassTime& pass : timings.passes) {
         pass.milliseconds = 0.0;

@@ -89,9 +89,7 @@ void World::Implementation::require_moves(const char* call,
 void World::Implementation::move(std::span<const InstanceHandle> instances,
                                  std::span<const Pose> poses) {
     require_moves("move", instances, poses);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        instances_.move(instances[i].index, poses[i]);
-    }
+    instances_.move(instances, poses);
 }
 
 void World::Implementation::set_filter(InstanceHandle instance, std::uint32_t category,

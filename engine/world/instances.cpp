@@ -64,11 +64,14 @@ void Instances::note_change(std::uint32_t index) {
     }
 }
 
-void Instances::move(std::uint32_t index, const Pose& pose) {
-    note_change(index);
-    ++entries_[index].moves;
+void Instances::move(std::span<const InstanceHandle> instances, std::span<const Pose> poses) {
     ++all_moves_;
-    entries_[index].instance.pose = pose;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const std::uint32_t index = instances[i].index;
+        note_change(index);
+        ++entries_[index].moves;
+        entries_[index].instance.pose = poses[i];
+    }
 }
 
 void Instances::set_filter(std::uint32_t index, std::uint32_t category, std::uint32_t mask) {

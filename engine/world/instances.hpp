@@ -47,7 +47,8 @@ public:
         return handle.index;
     }
     [[nodiscard]] InstanceHandle add(const WorldInstance& instance);
-    void move(std::uint32_t index, const Pose& pose);
+    /// Precondition: find() finds all of them; as many poses.
+    void move(std::span<const InstanceHandle> instances, std::span<const Pose> poses);
     void set_filter(std::uint32_t index, std::uint32_t category, std::uint32_t mask);
     void remove(std::uint32_t index);
 
