@@ -60,15 +60,28 @@ void consider(vec4 all_four, uint four, float touching, float margin, inout Dept
     depths.found += sum_of(found);
 }
 
+// Four depths; beyond the last four, none.
+vec4 depths_until(uint four, uint end) {
+    vec4 depths = four_depths(min(four, end - 1u));
+    return four < end ? depths : vec4(nothing_found);
+}
+
 Depths compare(uint first, uint end, float touching, float margin) {
     Depths depths = Depths(0u, 0u, 0u, 0u, 0.0, 0.0, true, false);
-    uint four = first / 4u;
-    vec4 next = first < end ? four_depths(four) : vec4(nothing_found);
-    for (; 4u * four < end; ++four) {
-        vec4 all_four = next;
-        // While these are compared, the next ones are on their way.
-        next = four_depths(4u * four + 4u < end ? four + 1u : four);
-        consider(all_four, four, touching, margin, depths);
+    if (first >= end) {
+        return depths;
+    }
+    // While these are compared, the next ones are on their way.
+    uint end_four = (end + 3u) / 4u;
+    vec4 next = depths_until(first / 4u, end_four);
+    vec4 then = depths_until(first / 4u + 1u, end_four);
+    for (uint four = first / 4u; four < end_four; four += 2u) {
+        vec4 one = next;
+        vec4 other = then;
+        next = depths_until(four + 2u, end_four);
+        then = depths_until(four + 3u, end_four);
+        consider(one, four, touching, margin, depths);
+        consider(other, four + 1u, touching, margin, depths);
     }
     return depths;
 }
