@@ -45,7 +45,7 @@ public:
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    static constexpr std::uint32_t max_passes = 17;
+    static constexpr std::uint32_t max_passes = 16;
 
     [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
         return graph_.print(format, title);
