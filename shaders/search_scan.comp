@@ -12,9 +12,14 @@ layout(local_size_x = 128) in;
 #include "sums.glsl"
 #include "totals.glsl"
 
-const uint blocks_per_thread = scan_block / scan_threads;
+// Writes the sums before each of four blocks.
+void write_four(uint unit, uint before, uvec4 sums) {
+    uint second = added(before, sums.x);
+    uint third = added(second, sums.y);
+    scratch_units[unit] = uvec4(before, second, third, added(third, sums.z));
+}
 
-// `first`: word of the first block's sum; `elements`: of all blocks.
+// `first`: word of the first block's sum; `elements`: of all blocks. A thread scans eight.
 void scan(uint first, uint elements) {
     uint blocks = (elements + search_block - 1u) / search_block;
     uint own_first = scan_block * gl_WorkGroupID.x;
@@ -22,20 +27,20 @@ void scan(uint first, uint elements) {
         return;
     }
     uint before_all = sum_of_words(push.block_sums, own_first);
-    uint begin = min(own_first + blocks_per_thread * gl_LocalInvocationID.x, blocks);
-    uint end = min(begin + blocks_per_thread, blocks);
-    uint sum = 0u;
-    for (uint i = begin; i < end; ++i) {
-        sum = added(sum, scratch_word(push.block_sums + i));
-    }
+    uint begin = own_first + scan_block / scan_threads * gl_LocalInvocationID.x;
+    uvec4 low = words_from(begin, push.block_sums, blocks);
+    uvec4 high = words_from(begin + 4u, push.block_sums, blocks);
+    uint sum = added(sum_of_four(low), sum_of_four(high));
     uint before = added(before_all, sum_before_thread(sum));
-    for (uint i = begin; i < end; ++i) {
-        scratch[first + i] = before;
-        before = added(before, scratch_word(push.block_sums + i));
+    if (begin < blocks) {
+        write_four((first + begin) / 4u, before, low);
+    }
+    if (begin + 4u < blocks) {
+        write_four((first + begin) / 4u + 1u, added(before, sum_of_four(low)), high);
     }
     bool is_last = gl_LocalInvocationID.x + 1u == gl_WorkGroupSize.x;
     if (is_last && own_first + scan_block >= blocks) {
-        write_total(push.stage, before, push.capacity);
+        write_total(push.stage, added(before, sum), push.capacity);
     }
 }
 

@@ -32,14 +32,30 @@ uint sum_before_thread(uint own_sum) {
     return before;
 }
 
-// Returns the sum of the first words of an array. Call from every thread of the workgroup. `first`:
+// Four words of an array from the one of that number on, which four divides; 0 beyond its end. `first`:
 // the array's first word, the first one of a unit.
+uvec4 words_from(uint number, uint first, uint count) {
+    uint last = max(count, 1u) - 1u;
+    uvec4 words = scratch_unit((first + min(number, last)) / 4u);
+    return mix(uvec4(0u), words, lessThan(number + uvec4(0u, 1u, 2u, 3u), uvec4(count)));
+}
+
+uint sum_of_four(uvec4 words) {
+    return added(added(words.x, words.y), added(words.z, words.w));
+}
+
+// Returns the sum of the words of an array. Call from every thread of the workgroup.
 uint sum_of_words(uint first, uint count) {
     uint sum = 0u;
-    for (uint i = gl_LocalInvocationID.x; 4u * i < count; i += gl_WorkGroupSize.x) {
-        uvec4 words = scratch_unit(first / 4u + i);
-        words = mix(uvec4(0u), words, lessThan(4u * i + uvec4(0u, 1u, 2u, 3u), uvec4(count)));
-        sum = added(added(sum, added(words.x, words.y)), added(words.z, words.w));
+    const uint step = 4u * gl_WorkGroupSize.x;
+    // Loads that do not depend on each other overlap in time.
+    for (uint i = 4u * gl_LocalInvocationID.x; i < count; i += 4u * step) {
+        uvec4 one = words_from(i, first, count);
+        uvec4 second = words_from(i + step, first, count);
+        uvec4 third = words_from(i + 2u * step, first, count);
+        uvec4 last = words_from(i + 3u * step, first, count);
+        sum = added(sum, added(sum_of_four(one), sum_of_four(second)));
+        sum = added(sum, added(sum_of_four(third), sum_of_four(last)));
     }
     uint before = sum_before_thread(sum);
     if (gl_LocalInvocationID.x + 1u == gl_WorkGroupSize.x) {
