@@ -17,5 +17,6 @@ void write_total(uint stage, uint total, uint capacity) {
     uint rows = (groups + max_workgroups - 1u) / max_workgroups;
     scratch[stage] = room;
     scratch[first_counted + stage] = total;
-    arguments[stage] = uvec4(min(groups, max_workgroups), rows, 1u, total);
+    // As few too many as there can be: each of those writes a sum, too (ScratchLayout::sums).
+    arguments[stage] = uvec4((groups + rows - 1u) / rows, rows, 1u, total);
 }

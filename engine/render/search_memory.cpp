@@ -12,7 +12,10 @@ std::uint32_t ScratchLayout::words(std::uint64_t count) {
 }
 
 std::uint32_t ScratchLayout::sums(std::uint64_t elements) {
-    return words((elements + plan::search_block - 1) / plan::search_block + 1);
+    // A dispatch of several rows has up to one workgroup fewer than rows too many (totals.glsl).
+    const std::uint64_t workgroups = elements / plan::search_block + 1;
+    const std::uint64_t rows = workgroups / plan::max_workgroups + 1;
+    return words(workgroups + rows);
 }
 
 void ScratchLayout::add_stages(std::uint64_t items, std::uint64_t edges, std::uint64_t points,
