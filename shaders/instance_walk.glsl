@@ -14,40 +14,24 @@ void find_levels() {
     barrier();
 }
 
-// The units of a group's eight boxes, or of what belongs to them, from `first` on. Those beyond the
-// group's last one repeat it: loads that depend on nothing overlap in time.
-struct Eight {
-    uvec4 units[8];
-};
-
-Eight eight_units(uint first, uint last) {
-    return Eight(uvec4[8](scratch_unit(first), scratch_unit(first + min(1u, last)),
-                          scratch_unit(first + min(2u, last)), scratch_unit(first + min(3u, last)),
-                          scratch_unit(first + min(4u, last)), scratch_unit(first + min(5u, last)),
-                          scratch_unit(first + min(6u, last)), scratch_unit(first + min(7u, last))));
-}
-
-uint overlaps(uvec4 unit, vec4 own, uint bit) {
-    vec4 box = uintBitsToFloat(unit);
+uint overlaps(uint unit, bool exists, vec4 own, uint bit) {
+    if (!exists) {
+        return 0u;
+    }
+    vec4 box = uintBitsToFloat(scratch_unit(unit + bit));
     bool do_overlap = all(lessThanEqual(box.xy, own.zw)) && all(lessThanEqual(own.xy, box.zw));
     return do_overlap ? 1u << bit : 0u;
-}
-
-// The last box of a walk's group, of eight.
-uint last_of_group(Walk walk) {
-    return min(level_size(walk.level) - 8u * walk.group, 8u) - 1u;
 }
 
 // The boxes of a walk's group that overlap with a box; without a loop, since long walks call it in
 // each of their steps.
 uint group_overlaps(Walk walk, vec4 own) {
-    uint last = last_of_group(walk);
-    Eight boxes = eight_units(level_units[walk.level] + 8u * walk.group, last);
-    uint all_eight = overlaps(boxes.units[0], own, 0u) | overlaps(boxes.units[1], own, 1u) |
-                     overlaps(boxes.units[2], own, 2u) | overlaps(boxes.units[3], own, 3u) |
-                     overlaps(boxes.units[4], own, 4u) | overlaps(boxes.units[5], own, 5u) |
-                     overlaps(boxes.units[6], own, 6u) | overlaps(boxes.units[7], own, 7u);
-    return all_eight & ((2u << last) - 1u);
+    uint unit = level_units[walk.level] + 8u * walk.group;
+    uint count = level_size(walk.level) - 8u * walk.group;
+    return overlaps(unit, true, own, 0u) | overlaps(unit, count > 1u, own, 1u) |
+           overlaps(unit, count > 2u, own, 2u) | overlaps(unit, count > 3u, own, 3u) |
+           overlaps(unit, count > 4u, own, 4u) | overlaps(unit, count > 5u, own, 5u) |
+           overlaps(unit, count > 6u, own, 6u) | overlaps(unit, count > 7u, own, 7u);
 }
 
 uint top_level() {
@@ -58,23 +42,27 @@ uint top_level() {
     return level;
 }
 
-// `b`: number, category and mask.
-uint pair_bit(uvec4 b, uint bit, uint a, uvec2 filter_a, bool is_once) {
+bool is_pair(uint unit, uint a, uvec2 filter_a, bool is_once) {
+    uvec4 b = scratch_unit(unit);  // number, category and mask
     bool is_asked = is_once ? b.x > a : b.x != a;
-    return is_asked && (filter_a.x & b.z) != 0u && (b.y & filter_a.y) != 0u ? 1u << bit : 0u;
+    return is_asked && (filter_a.x & b.z) != 0u && (b.y & filter_a.y) != 0u;
+}
+
+uint pair_bit(uint unit, uint bit, uint boxes, uint a, uvec2 filter_a, bool is_once) {
+    return (boxes >> bit & 1u) != 0u && is_pair(unit + bit, a, filter_a, is_once) ? 1u << bit : 0u;
 }
 
 // Of the boxes of a group of the lowest level, one bit each, those of instances that make a pair.
-uint pairs_among(uint boxes, Walk walk, uint a, uvec2 filter_a, bool is_once) {
-    Eight b = eight_units(level_units[instance_levels] + 8u * walk.group, last_of_group(walk));
-    return boxes & (pair_bit(b.units[0], 0u, a, filter_a, is_once) |
-                    pair_bit(b.units[1], 1u, a, filter_a, is_once) |
-                    pair_bit(b.units[2], 2u, a, filter_a, is_once) |
-                    pair_bit(b.units[3], 3u, a, filter_a, is_once) |
-                    pair_bit(b.units[4], 4u, a, filter_a, is_once) |
-                    pair_bit(b.units[5], 5u, a, filter_a, is_once) |
-                    pair_bit(b.units[6], 6u, a, filter_a, is_once) |
-                    pair_bit(b.units[7], 7u, a, filter_a, is_once));
+uint pairs_among(uint boxes, uint group, uint a, uvec2 filter_a, bool is_once) {
+    uint unit = level_units[instance_levels] + 8u * group;
+    return pair_bit(unit, 0u, boxes, a, filter_a, is_once) |
+           pair_bit(unit, 1u, boxes, a, filter_a, is_once) |
+           pair_bit(unit, 2u, boxes, a, filter_a, is_once) |
+           pair_bit(unit, 3u, boxes, a, filter_a, is_once) |
+           pair_bit(unit, 4u, boxes, a, filter_a, is_once) |
+           pair_bit(unit, 5u, boxes, a, filter_a, is_once) |
+           pair_bit(unit, 6u, boxes, a, filter_a, is_once) |
+           pair_bit(unit, 7u, boxes, a, filter_a, is_once);
 }
 
 // The box of instance `a`, which is at its place in the order.
@@ -93,7 +81,7 @@ uint find_pairs(uint a) {
     for (uint steps = 0u; steps < max_instance_steps; ++steps) {
         uint boxes = group_overlaps(walk, own);
         if (walk.level == 0u) {
-            uint found = pairs_among(boxes, walk, a, filter_a, is_once);
+            uint found = pairs_among(boxes, walk.group, a, filter_a, is_once);
             steps += bitCount(found);
             for (boxes = 0u; found != 0u; ++count) {
                 take_pair(a, 8u * walk.group + take_bit(found), count);
