@@ -74,16 +74,16 @@ void PairSearch::add_scan(const char* name, std::uint32_t stage) {
 }
 
 void PairSearch::declare_pairs() {
-    add("pair boxes", shaders_->boxes, of_instances);
+    add("pair boxes", shaders_->instances.boxes, of_instances);
     graph_.add_pass(
         "pair levels", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->levels.bind(commands, item.sets[of_instances]);
-            push(commands, item, shaders_->levels, 0, no_stage);
-            shaders_->levels.dispatch(commands, 1);
+            shaders_->instances.levels.bind(commands, item.sets[of_instances]);
+            push(commands, item, shaders_->instances.levels, 0, no_stage);
+            shaders_->instances.levels.dispatch(commands, 1);
         });
     add("count pairs", shaders_->counts, of_instances);
     graph_.add_pass(

@@ -1,11 +1,9 @@
 #include <passes/pair_shaders.hpp>
 
-#include <shaders/pair_boxes_comp.hpp>
 #include <shaders/pair_contacts_comp.hpp>
 #include <shaders/pair_counts_comp.hpp>
 #include <shaders/pair_crossings_comp.hpp>
 #include <shaders/pair_directions_comp.hpp>
-#include <shaders/pair_levels_comp.hpp>
 #include <shaders/pair_lists_comp.hpp>
 #include <shaders/pair_rows_comp.hpp>
 #include <shaders/pair_summaries_comp.hpp>
@@ -21,10 +19,10 @@ ComputeShader make_pair_shader(const gpu::Device& device, const ComputeLayout& l
 
 }  // namespace
 
-PairShaders::PairShaders(const gpu::Device& device, const ComputeLayout& layout)
-    : search(device, layout, true, "nearfield pair"),
-      boxes(make_pair_shader(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes")),
-      levels(make_pair_shader(device, layout, shaders::pair_levels_comp, "nearfield pair levels")),
+PairShaders::PairShaders(const gpu::Device& device, const ComputeLayout& layout,
+                         const InstanceShaders* instance_shaders)
+    : instances(*instance_shaders),
+      search(device, layout, true, "nearfield pair"),
       counts(make_pair_shader(device, layout, shaders::pair_counts_comp, "nearfield pair counts")),
       lists(make_pair_shader(device, layout, shaders::pair_lists_comp, "nearfield pair lists")),
       directions(make_pair_shader(device, layout, shaders::pair_directions_comp,

@@ -3,17 +3,10 @@
 
 #include "push.h"
 #include "shapes.glsl"
+#include "scratch.glsl"
 
 // Directions, and how many items there are, are in the scratch memory (pairs.h).
 layout(constant_id = 1) const bool finds_pairs = false;
-
-layout(std430, set = 0, binding = 1) buffer Scratch {
-    uint scratch[];
-};
-layout(std430, set = 0, binding = 1) buffer ScratchUnits {
-    uvec4 scratch_units[];  // the same memory
-};
-layout(set = 0, binding = 9) uniform usamplerBuffer scratch_texels;  // and again
 
 layout(push_constant) uniform Push { SearchPush push; };
 
@@ -21,15 +14,6 @@ layout(push_constant) uniform Push { SearchPush push; };
 const uint local_shift = 24u;
 // In place of the depth of a point that was not found.
 const float nothing_found = -2.0;
-
-// The parts of the scratch memory that earlier dispatches have written.
-uvec4 scratch_unit(uint unit) {
-    return reads_texels ? texelFetch(scratch_texels, int(unit)) : scratch_units[unit];
-}
-
-uint scratch_word(uint word) {
-    return reads_texels ? texelFetch(scratch_texels, int(word >> 2))[word & 3u] : scratch[word];
-}
 
 uint dispatched_index() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * search_block +

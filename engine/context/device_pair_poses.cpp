@@ -19,7 +19,7 @@ void DevicePairTableBase::State::set_poses(const DevicePoses* poses) {
     const bool is_same_source =
         poses == nullptr ? !poses_.has_value() : poses_ && poses->origin == poses_->origin;
     if (!is_same_source) {
-        membership_ = 0;
+        instances_.forget_places();
     }
     poses_ = poses == nullptr ? std::nullopt : std::optional(*poses);
 }
@@ -30,8 +30,9 @@ void DevicePairTableBase::State::find_poses(const char* call) {
         return;
     }
     const VkPhysicalDeviceLimits& limits = context_->device()->limits();
-    const Status status = plan::check_poses(
-        *poses_, elements_, limits.minStorageBufferOffsetAlignment, limits.maxStorageBufferRange);
+    const Status status =
+        plan::check_poses(*poses_, instances_.end_index(), limits.minStorageBufferOffsetAlignment,
+                          limits.maxStorageBufferRange);
     if (!status.ok()) {
         refuse(call, status.message());
     }
@@ -39,7 +40,8 @@ void DevicePairTableBase::State::find_poses(const char* call) {
         const double farthest = question_.resolved > 0.0
                                     ? question_.resolved / plan::smallest_tolerance(1.0)
                                     : std::numeric_limits<float>::max();
-        buffers_->poses().set(context_->renderer()->pair_poses(), *poses_, elements_, farthest);
+        buffers_->poses().set(context_->renderer()->pair_poses(), *poses_, instances_.end_index(),
+                              farthest);
     }
 }
 
@@ -49,10 +51,10 @@ void DevicePairTableBase::State::require_usable_poses() {
     }
     if (const auto number = buffers_->poses().unusable()) {
         const auto [x, y, cosine, sine] = buffers_->poses().pose(*number);
-        refuse("poses", "that of the instance with index " + std::to_string(indices_[*number]) +
-                            " is (" + geometry::number(x) + ", " + geometry::number(y) +
-                            ") with cosine " + geometry::number(cosine) + " and sine " +
-                            geometry::number(sine) +
+        refuse("poses", "that of the instance with index " +
+                            std::to_string(instances_.index(*number)) + " is (" +
+                            geometry::number(x) + ", " + geometry::number(y) + ") with cosine " +
+                            geometry::number(cosine) + " and sine " + geometry::number(sine) +
                             "; positions must be finite and, with their origin, at most " +
                             geometry::number(largest_coordinate) +
                             " in magnitude, and the square of the length of (cosine, sine) must "
@@ -60,26 +62,23 @@ void DevicePairTableBase::State::require_usable_poses() {
     }
     if (!are_poses_taken_) {
         are_poses_taken_ = true;
-        order_soon();  // until now they were ordered by the poses of the world
+        instances_.order_soon();  // until now they were ordered by the poses of the world
     }
 }
 
 void DevicePairTableBase::State::take_pose(std::uint32_t number) {
-    PairInstance& entry = instances_[number];
     const auto [x, y, cosine, sine] = buffers_->poses().pose(number);
-    entry.instance.pose = {.translation = {poses_->origin.x + x, poses_->origin.y + y},
-                           .angle = arc_tangent(sine, cosine)};
     const double length = std::hypot(cosine, sine);
-    plan::SearchInstanceData unused;
-    entry.place = plan::set_place(*polygon_of(entry.instance.shape), entry.instance.pose,
-                                  {sine / length, cosine / length}, origin_, unused)
-                      .place;
+    instances_.take_pose(number,
+                         {.translation = {poses_->origin.x + x, poses_->origin.y + y},
+                          .angle = arc_tangent(sine, cosine)},
+                         {sine / length, cosine / length});
 }
 
 double DevicePairTableBase::State::rounding_of(const PairInstance& entry) const {
     const geometry::Polygon& polygon = *polygon_of(entry.instance.shape);
-    const double magnitude = origin_.lpNorm<1>() + entry.place.lpNorm<1>() + polygon.radius() +
-                             polygon.centre().lpNorm<1>();
+    const double magnitude = instances_.origin().lpNorm<1>() + entry.place.lpNorm<1>() +
+                             polygon.radius() + polygon.centre().lpNorm<1>();
     return plan::rounding_of_host_pose(polygon, magnitude);
 }
 

@@ -73,17 +73,17 @@ bool DevicePairTableBase::State::is_recorded(const Context::Implementation& with
                                              const Source& source) const {
     const render::Renderer* const renderer = with.renderer();
     return frame_ && !lacks_room_ && context_ == &with && world_.lock() == source.identity &&
-           membership_ == source.instances.membership() && filters_ == source.instances.filters() &&
-           shapes_revision_ == with.shapes().revision() && renderer_ == renderer->number();
+           instances_.are_those_of(with.shapes(), source.instances) &&
+           filters_ == source.instances.filters() && renderer_ == renderer->number();
 }
 
 void World::Implementation::record(DevicePairTableBase& table, const DevicePoses* poses,
                                    const Recording& recording) {
-    table.state_->record(*context_, {identity_, instances_, poses}, read_versioned(recording));
+    table.state_->record(*context_, {{identity_, instances_}, poses}, read_versioned(recording));
 }
 
 bool World::Implementation::is_recorded(const DevicePairTableBase& table) const {
-    return table.state_->is_recorded(*context_, {identity_, instances_});
+    return table.state_->is_recorded(*context_, {{identity_, instances_}});
 }
 
 Status World::record(DevicePairTableBase& table, const Recording& recording, const Limits& limits) {

@@ -86,7 +86,7 @@ DevicePairTableBase::State::~State() {
     if (context_ != nullptr) {
         report_open_frame();
         set_submitted(false);
-        context_->shapes().release(held_);
+        instances_.clear(&context_->shapes());
     }
 }
 

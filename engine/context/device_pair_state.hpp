@@ -1,17 +1,15 @@
 #pragma once
 
-#include <engine/batch/shape_store.hpp>
+#include <engine/context/device_instances.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/context/pair_row.hpp>
 #include <engine/cpu/intersection_test.hpp>
 #include <engine/decode/contacts.hpp>
 #include <engine/plan/pair_question.hpp>
-#include <engine/plan/pair_search.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/records/found_contacts.hpp>
 #include <engine/records/point_resolver.hpp>
 #include <engine/render/pair_search_buffers.hpp>
-#include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
 #include <nearfield/device_poses.hpp>
 #include <nearfield/world_device.hpp>
@@ -33,9 +31,7 @@ struct DevicePairTableBase::State {
     State& operator=(const State&) = delete;
 
     /// A world, and where the poses of its instances are.
-    struct Source {
-        const std::shared_ptr<const void>& identity;  // of the world
-        const world::Instances& instances;
+    struct Source : WorldOnDevice {
         const DevicePoses* poses = nullptr;  // of the host; null: the instances' own
     };
     /// Bring the rows up to date with a world, at once or in two halves.
@@ -67,20 +63,8 @@ struct DevicePairTableBase::State {
     }
 
 private:
-    static constexpr std::uint64_t not_placed = UINT64_MAX;
-    /// An instance as the last update found it. Its number is its place among all. A pose of the
-    /// host's is taken when it is needed (pair_of()).
-    struct PairInstance {
-        Instance instance;
-        InstanceHandle handle;
-        std::uint64_t moves = not_placed;  // see world::Instances
-        geometry::Vector place;            // of its shape's centre, relative to the origin
-    };
-    /// A shape of instances. Its polygon is held; null: it has none.
-    struct PairShape {
-        const geometry::Polygon* polygon = nullptr;
-        plan::SearchInstanceData data;  // what all its instances have alike
-    };
+    /// A pose of the host's is taken when it is needed (pair_of()).
+    using PairInstance = DeviceInstances::Entry;
     /// A row that the CPU decided. Its answer is the result with the same index.
     struct Decided {
         std::uint32_t row = 0;   // of the device
@@ -114,15 +98,7 @@ private:
     void finish();
     void collect_recorded();
     void check(const char* call) const;
-    void list_instances(const char* call, const world::Instances& instances);
-    void place(const world::Instances& instances, std::span<const std::uint32_t> numbers);
-    void place_moved(const world::Instances& instances);
-    void place_each_moved(const world::Instances& instances);
-    void place_shape(ShapeHandle handle);
-    [[nodiscard]] bool is_for_cpu(const geometry::Polygon& polygon) const;
-    void place_all(const world::Instances& instances);
     void order_instances(const world::Instances& instances);
-    void order_soon();
     [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
     [[nodiscard]] bool is_hit(const AnyResult& answer, const plan::PairRowData& data) const;
     void decide();
@@ -132,7 +108,7 @@ private:
     [[nodiscard]] const AnyResult* find_decided(std::uint32_t row) const;
     [[nodiscard]] AnyQuery query_on_cpu(const plan::PairRowData& data, bool with_records) const;
     [[nodiscard]] const geometry::Polygon* polygon_of(ShapeHandle shape) const {
-        return pair_shapes_[shape.index].polygon;
+        return instances_.polygon_of(shape);
     }
     [[nodiscard]] const AnyResult& answer_on_cpu(const plan::PairRowData& data, bool with_records);
     template <class Query>
@@ -164,21 +140,12 @@ private:
 
     const AnyQuery query_;
     const plan::PairQuestion question_;  // that it asks of the device
-    geometry::Vector origin_ = geometry::Vector::Zero();
-    std::optional<DevicePoses> poses_;  // of the host
+    std::optional<DevicePoses> poses_;   // of the host
     records::PointResolver resolver_;
     Context::Implementation* context_ = nullptr;
     std::weak_ptr<const void> world_;
     std::unique_ptr<render::PairSearchBuffers> buffers_;
-    plan::SearchShapes shapes_;
-    batch::ShapeStore::Held held_;
-    std::vector<PairInstance> instances_;  // in the order in which they were added
-    std::vector<std::uint32_t> indices_;   // of these in the world
-    std::vector<PairShape> pair_shapes_;   // by the index of a shape's handle
-    std::uint64_t membership_ = 0;         // of the world, at the last update
-    std::uint64_t shapes_revision_ = 0;
-    world::HilbertOrder hilbert_order_;
-    std::vector<Vector2> places_;   // of the instances
+    DeviceInstances instances_{query_, question_};
     std::vector<Decided> decided_;  // in ascending order of the rows
     Results decided_results_;
     std::vector<std::uint32_t> dropped_rows_;  // of the device, in ascending order
@@ -192,11 +159,8 @@ private:
     cpu::IntersectionTest intersection_test_;
     simd::TransformedInstances edges_;
     std::uint64_t filters_ = 0;           // of the world, at the last update
-    std::uint64_t all_moves_ = 0;         // of its instances, when they were placed
     std::optional<std::uint64_t> frame_;  // of the host, that it was recorded for
     std::uint32_t renderer_ = 0;          // number of that of the last update
-    std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
-    std::uint32_t elements_ = 0;          // of the host's poses: all indices are below it
     bool are_poses_taken_ = false;        // by the device, of the present instances
     bool is_submitted_ = false;           // or recorded, and not collected
     bool lacks_room_ = false;             // what was recorded

@@ -73,14 +73,9 @@ void DevicePairTableBase::State::start_anew() {
     frame_.reset();
     decided_.clear();
     dropped_rows_.clear();
-    instances_.clear();
-    indices_.clear();
-    membership_ = shapes_revision_ = 0;
+    instances_.clear(context_ != nullptr ? &context_->shapes() : nullptr);
     buffers_.reset();
     world_.reset();
-    if (context_ != nullptr) {
-        context_->shapes().release(held_);
-    }
 }
 
 /// Whether the pair is one that a PairTable asks about: those in whose boxes only rounding leaves a
@@ -170,22 +165,13 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
     if (buffers_ == nullptr || renderer_ != renderer.number()) {
         buffers_ = renderer.make_pair_buffers(question_);
         renderer_ = renderer.number();
-        membership_ = 0;
+        instances_.forget_places();
     }
-    const bool is_same =
-        membership_ == instances.membership() && shapes_revision_ == context_->shapes().revision();
-    if (is_same && instances_.size() > 1) {
-        place_moved(instances);
-    } else if (!is_same) {
-        membership_ = 0;
-        list_instances(call, instances);
-        if (instances_.size() > 1) {
-            buffers_->reserve_instances(static_cast<std::uint32_t>(instances_.size()));
-            place_all(instances);
-        }
-        membership_ = instances.membership();
-        shapes_revision_ = context_->shapes().revision();
-    }
+    const bool is_same = instances_.are_those_of(context_->shapes(), instances);
+    are_poses_taken_ = are_poses_taken_ && is_same;
+    instances_.update(call, context_->shapes(), instances,
+                      poses_ ? std::optional(geometry::to_vector(poses_->origin)) : std::nullopt,
+                      buffers_->world());
     filters_ = instances.filters();
     find_poses(call);
     const passes::ExportPairs* const exports =
@@ -194,19 +180,30 @@ void DevicePairTableBase::State::start(const char* call, Context::Implementation
     if (instances_.size() > 1) {
         order_instances(instances);
         if (exports != nullptr) {
-            buffers_->outputs().set(*exports, origin_);
+            buffers_->outputs().set(*exports, instances_.origin());
         }
         timings.plan = total.milliseconds() - pipelines;
         renderer.note_pairs(question_.kind(), poses_.has_value(), question_.resident);
         const passes::PairSearch& search = renderer.pair_search(question_.kind());
         if (commands == VK_NULL_HANDLE) {
-            buffers_->begin(search, shapes_, context_->memory_limit(), timings);
+            buffers_->begin(search, instances_.shapes(), context_->memory_limit(), timings);
         } else {
-            buffers_->record(commands, search, shapes_, context_->memory_limit(), timings);
+            buffers_->record(commands, search, instances_.shapes(), context_->memory_limit(),
+                             timings);
         }
     }
     set_submitted(true);
     timings.total = total.milliseconds() - pipelines;
+}
+
+void DevicePairTableBase::State::order_instances(const world::Instances& instances) {
+    if (are_poses_taken_ && instances_.is_order_due()) {
+        for (std::uint32_t number = 0; number < instances_.size(); ++number) {
+            take_pose(number);
+        }
+    }
+    // The host says what the origin of its poses is.
+    instances_.order(instances, !poses_, buffers_->world());
 }
 
 void DevicePairTableBase::State::finish() {
@@ -271,11 +268,11 @@ void DevicePairTableBase::State::collect() {
 }
 
 void World::Implementation::update(DevicePairTableBase& table, const DevicePoses* poses) {
-    table.state_->update(*context_, {identity_, instances_, poses});
+    table.state_->update(*context_, {{identity_, instances_}, poses});
 }
 
 void World::Implementation::submit(DevicePairTableBase& table, const DevicePoses* poses) {
-    table.state_->submit(*context_, {identity_, instances_, poses});
+    table.state_->submit(*context_, {{identity_, instances_}, poses});
 }
 
 Status World::update(DevicePairTableBase& table, const Limits& limits) {

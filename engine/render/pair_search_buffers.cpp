@@ -12,8 +12,6 @@
 namespace nearfield::render {
 namespace {
 
-using plan::SearchInstanceData;
-
 constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_sets{
     "nearfield pair set of instances", "nearfield pair set of points",
     "nearfield pair set of rows"};
@@ -22,11 +20,6 @@ constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_s
 constexpr std::uint32_t least_capacity = 64;
 /// In place of the number of pairs until the device has counted them.
 constexpr std::uint32_t not_counted = UINT32_MAX;
-
-std::uint64_t instance_bytes(std::uint32_t count) {
-    return sizeof(plan::PairQueryData) +
-           count * (sizeof(SearchInstanceData) + 2 * sizeof(std::uint32_t));
-}
 
 constexpr std::uint64_t bytes_of_counts = plan::words_of_counts * sizeof(std::uint32_t);
 
@@ -50,10 +43,7 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
                   timestamps),
       poses_(device, layout),
       outputs_(device, layout),
-      shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-              gpu::Direction::upload, "nearfield pair shapes"),
-      instances_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
-                 "nearfield pair instances"),
+      world_(device),
       scratch_(device, scratch_usage, gpu::Direction::none, "nearfield pair scratch"),
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::none, "nearfield pair arguments"),
@@ -84,59 +74,13 @@ PairSearchBuffers::~PairSearchBuffers() {
     }
 }
 
-void PairSearchBuffers::reserve_instances(std::uint32_t count) {
-    if (count > instance_room_) {
-        instance_room_ = 0;
-        is_laid_out_ = false;
-        const std::uint32_t room = std::max(count, 2 * item_.push.instances);
-        instances_.reserve(instance_bytes(room));
-        instance_room_ = room;
-    }
-    is_laid_out_ = is_laid_out_ && count == item_.push.instances;
-    item_.push.instances = count;
-}
-
-void PairSearchBuffers::set_query(plan::PairQueryData query) {
-    query.order = 4 * (plan::units_of_query + plan::units_of_instance * instance_room_);
-    std::memcpy(instances_.data(), &query, sizeof(query));
-}
-
-void PairSearchBuffers::set_order(std::span<const std::uint32_t> order) {
-    auto* const words =
-        reinterpret_cast<std::uint32_t*>(instances_.data() + sizeof(plan::PairQueryData) +
-                                         instance_room_ * sizeof(SearchInstanceData));
-    for (std::uint32_t place = 0; place < order.size(); ++place) {
-        words[place] = order[place];
-        words[order.size() + order[place]] = place;
-    }
-}
-
-void PairSearchBuffers::upload_shapes(const plan::SearchShapes& shapes) {
-    const auto bytes = std::as_bytes(shapes.units());
-    const bool is_new =
-        reserve_with_texels(*device_, shapes_, texels_, bytes.size(), "nearfield pair texels");
-    is_laid_out_ = is_laid_out_ && !is_new;
-    if (is_new || shapes.revision() != shapes_revision_) {
-        std::copy(bytes.begin(), bytes.end(), shapes_.data());
-        shapes_.flush();
-        shapes_revision_ = shapes.revision();
-        is_laid_out_ = is_laid_out_ && shape_bytes_ == bytes.size();
-        shape_bytes_ = bytes.size();
-    }
-}
-
 /// Where everything is in the scratch memory, and how large it and its two companions are.
 PairSearchBuffers::Bytes PairSearchBuffers::place_arrays() {
     plan::SearchPush& push = item_.push;
+    push.instances = world_.count();
     const auto [edges, points, found, pairs, items, rows] = item_.capacities;
     ScratchLayout layout;
-    std::uint64_t boxes = 0;
-    std::uint64_t level = push.instances;
-    for (std::uint32_t i = 0; i < plan::instance_levels; ++i) {
-        boxes += level;
-        level = (level + 7) / 8;
-    }
-    push.boxes = layout.units(boxes + push.instances);
+    push.boxes = layout.units(units_of_boxes(push.instances));
     push.lists = layout.units(plan::units_of_list * std::uint64_t{push.instances});
     push.pairs = layout.words(2 * std::uint64_t{pairs});
     push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
@@ -182,14 +126,15 @@ void PairSearchBuffers::lay_out() {
     if (outputs_.is_set()) {
         outputs_.reserve(item_.capacities[plan::row_total], item_.capacities[plan::record_total]);
     }
-    item_.shapes = shapes_.handle();
-    item_.instances = instances_.handle();
+    item_.shapes = world_.shapes();
+    item_.instances = world_.instances();
     item_.scratch = scratch_.handle();
     item_.arguments = arguments_.handle();
     item_.records = records_.handle();
     item_.rows = rows_.handle();
     item_.counts = count_memory_.handle();
     bind();
+    laid_out_world_ = world_.revision();
     is_laid_out_ = true;
 }
 
@@ -200,9 +145,9 @@ void PairSearchBuffers::bind() const {
         const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
             layout_->write_buffer(item_.sets[i], binding, buffer, 0, bytes);
         };
-        write(Layout::tiles, item_.shapes, shape_bytes_);
+        write(Layout::tiles, item_.shapes, world_.shape_bytes());
         write(Layout::geometry, item_.scratch, scratch_bytes_);
-        layout_->write_texels(item_.sets[i], Layout::texels, texels_.get());
+        layout_->write_texels(item_.sets[i], Layout::texels, world_.texels());
         layout_->write_texels(item_.sets[i], Layout::scratch_texels, scratch_texels_.get());
         if (i == passes::PairSearch::of_rows) {
             write(Layout::points, item_.rows, bytes_of_rows(item_.capacities[plan::row_total]));
@@ -212,7 +157,7 @@ void PairSearchBuffers::bind() const {
         if (i == passes::PairSearch::of_points) {
             write(Layout::points, item_.records, records_bytes());
         } else {
-            write(Layout::points, item_.instances, instance_bytes(instance_room_));
+            write(Layout::points, item_.instances, world_.instance_bytes());
         }
         write(Layout::output, item_.arguments, argument_bytes(plan::stages_of_pairs));
     }
@@ -243,16 +188,16 @@ void PairSearchBuffers::prepare(bool takes_poses) {
 /// Where poses come from, and where results go.
 void PairSearchBuffers::bind_ends(bool takes_poses) {
     if (takes_poses) {
-        poses_.bind({item_.shapes, shape_bytes_}, texels_.get(),
-                    {item_.instances, instance_bytes(instance_room_)}, item_.push.instances);
+        poses_.bind({item_.shapes, world_.shape_bytes()}, world_.texels(),
+                    {item_.instances, world_.instance_bytes()}, item_.push.instances);
     }
     if (outputs_.is_set()) {
         outputs_.bind({.search = item_,
-                       .shapes = {item_.shapes, shape_bytes_},
-                       .instances = {item_.instances, instance_bytes(instance_room_)},
+                       .shapes = {item_.shapes, world_.shape_bytes()},
+                       .instances = {item_.instances, world_.instance_bytes()},
                        .scratch = {item_.scratch, scratch_bytes_},
                        .rows = {item_.rows, bytes_of_rows(item_.capacities[plan::row_total])},
-                       .texels = texels_.get(),
+                       .texels = world_.texels(),
                        .scratch_texels = scratch_texels_.get()});
     }
 }
@@ -330,8 +275,8 @@ void PairSearchBuffers::upload(const passes::PairSearch& passes, const plan::Sea
             grow(*counts);
         }
     }
-    upload_shapes(shapes);
-    instances_.flush();
+    world_.upload(shapes);
+    is_laid_out_ = is_laid_out_ && laid_out_world_ == world_.revision();
 }
 
 void PairSearchBuffers::begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,

@@ -7,6 +7,7 @@
 #include <engine/gpu/timestamps.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
+#include <engine/render/instance_buffers.hpp>
 #include <engine/render/pair_counts.hpp>
 #include <engine/render/pair_outputs.hpp>
 #include <engine/render/pose_source.hpp>
@@ -20,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,22 +38,14 @@ public:
     PairSearchBuffers(const PairSearchBuffers&) = delete;
     PairSearchBuffers& operator=(const PairSearchBuffers&) = delete;
 
-    /// Makes room for so many instances, all of which have to be written, with query and order.
-    void reserve_instances(std::uint32_t count);
-    /// What holds for all pairs; the member `order` is set by this class.
-    void set_query(plan::PairQueryData query);
-    void set_instance(std::uint32_t number, const plan::SearchInstanceData& data) {
-        std::memcpy(instances_.data() + sizeof(plan::PairQueryData) + number * sizeof(data), &data,
-                    sizeof(data));
-    }
-    /// Where the places of instances come from, if not from set_instance().
+    /// The instances and their shapes.
+    [[nodiscard]] InstanceBuffers& world() { return world_; }
+    /// Where the places of instances come from, if the host gives their poses.
     [[nodiscard]] PoseSource& poses() { return poses_; }
     [[nodiscard]] const PoseSource& poses() const { return poses_; }
     /// What stays on the device.
     [[nodiscard]] PairOutputs& outputs() { return outputs_; }
     [[nodiscard]] const PairOutputs& outputs() const { return outputs_; }
-    /// The instances in the order of the hierarchy: a permutation of their numbers.
-    void set_order(std::span<const std::uint32_t> order);
 
     /// Lets the device find all pairs. The passes must stay until finish(), and nothing may be
     /// changed. Throws StatusException, (too_large) if the device cannot hold them, or they need
@@ -94,7 +86,6 @@ private:
     [[nodiscard]] const plan::PairRowData* rows_data() const {
         return reinterpret_cast<const plan::PairRowData*>(rows_.data());
     }
-    void upload_shapes(const plan::SearchShapes& shapes);
     struct Bytes {
         std::uint64_t scratch = 0;
         std::uint64_t records = 0;
@@ -139,23 +130,19 @@ private:
     std::uint64_t memory_limit_ = 0;
     PoseSource poses_;
     PairOutputs outputs_;
-    gpu::MappedBuffer shapes_;
-    gpu::MappedBuffer instances_;
+    InstanceBuffers world_;
     gpu::MappedBuffer scratch_;
     gpu::MappedBuffer arguments_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer rows_;
     gpu::MappedBuffer count_memory_;
-    gpu::Owned<VkBufferView> texels_;          // of the shapes
     gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
     passes::DescriptorSets sets_;
     passes::PairSearch::Item item_;
-    std::uint32_t instance_room_ = 0;
-    std::uint64_t shape_bytes_ = 0;
-    std::uint64_t shapes_revision_ = 0;
     std::uint64_t scratch_bytes_ = 0;
-    std::uint32_t bound_poses_ = 0;    // revision of those that commands take; 0: none
-    std::uint32_t bound_outputs_ = 0;  // revision of what they leave on the device
+    std::uint32_t laid_out_world_ = 0;  // revision of the instances
+    std::uint32_t bound_poses_ = 0;     // revision of those that commands take; 0: none
+    std::uint32_t bound_outputs_ = 0;   // revision of what they leave on the device
     bool is_submitted_ = false;
     bool is_laid_out_ = false;
     bool is_bound_ = false;     // since then, as are the next two

@@ -18,6 +18,7 @@
 #include <passes/fields.hpp>
 #include <passes/fill.hpp>
 #include <passes/gradient.hpp>
+#include <passes/instance_shaders.hpp>
 #include <passes/intersect.hpp>
 #include <passes/intersection_strategies.hpp>
 #include <passes/masks.hpp>
@@ -112,6 +113,10 @@ private:
         return *passes;
     }
 
+    [[nodiscard]] const passes::InstanceShaders& instance_shaders() const {
+        return made(instance_shaders_);
+    }
+
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
     mutable double milliseconds_ = 0.0;
@@ -123,6 +128,7 @@ private:
     mutable std::optional<passes::PointSearch> point_search_;
     mutable std::optional<passes::PairPoses> pair_poses_;
     mutable std::optional<passes::ExportPairs> export_pairs_;
+    mutable std::optional<passes::InstanceShaders> instance_shaders_;
     mutable std::optional<passes::PairShaders> pair_shaders_;
     mutable std::array<std::optional<passes::PairSearch>, plan::pair_search_kinds.size()>
         pair_searches_;

@@ -1,0 +1,89 @@
+#include <engine/render/instance_buffers.hpp>
+#include <engine/render/search_memory.hpp>
+
+#include <algorithm>
+
+namespace nearfield::render {
+namespace {
+
+std::uint64_t bytes_of_instances(std::uint32_t instances) {
+    return sizeof(plan::PairQueryData) +
+           instances * (sizeof(plan::SearchInstanceData) + 2 * sizeof(std::uint32_t));
+}
+
+}  // namespace
+
+std::uint64_t units_of_boxes(std::uint32_t instances) {
+    std::uint64_t boxes = 0;
+    std::uint64_t level = instances;
+    for (std::uint32_t i = 0; i < plan::instance_levels; ++i) {
+        boxes += level;
+        level = (level + 7) / 8;
+    }
+    return boxes + instances;
+}
+
+InstanceBuffers::InstanceBuffers(const gpu::Device& device)
+    : device_(&device),
+      shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+              gpu::Direction::upload, "nearfield pair shapes"),
+      instances_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
+                 "nearfield pair instances") {}
+
+void InstanceBuffers::reserve(std::uint32_t count) {
+    if (count > room_) {
+        room_ = 0;
+        ++revision_;
+        const std::uint32_t room = std::max(count, 2 * count_);
+        instances_.reserve(bytes_of_instances(room));
+        room_ = room;
+    }
+    if (count != count_) {
+        ++revision_;
+        count_ = count;
+    }
+}
+
+void InstanceBuffers::set_query(plan::PairQueryData query) {
+    query.order = 4 * (plan::units_of_query + plan::units_of_instance * room_);
+    std::memcpy(instances_.data(), &query, sizeof(query));
+}
+
+void InstanceBuffers::set_order(std::span<const std::uint32_t> order) {
+    auto* const words = reinterpret_cast<std::uint32_t*>(
+        instances_.data() + sizeof(plan::PairQueryData) + room_ * sizeof(plan::SearchInstanceData));
+    for (std::uint32_t place = 0; place < order.size(); ++place) {
+        words[place] = order[place];
+        words[order.size() + order[place]] = place;
+    }
+}
+
+void InstanceBuffers::upload(const plan::SearchShapes& shapes) {
+    const auto bytes = std::as_bytes(shapes.units());
+    const bool is_new =
+        reserve_with_texels(*device_, shapes_, texels_, bytes.size(), "nearfield pair texels");
+    if (is_new || shapes.revision() != shapes_revision_) {
+        std::copy(bytes.begin(), bytes.end(), shapes_.data());
+        shapes_.flush();
+        shapes_revision_ = shapes.revision();
+        if (is_new || shape_bytes_ != bytes.size()) {
+            ++revision_;
+            shape_bytes_ = bytes.size();
+        }
+    }
+    instances_.flush();
+}
+
+std::uint64_t InstanceBuffers::instance_bytes() const {
+    return bytes_of_instances(room_);
+}
+
+void InstanceBuffers::write_bindings(const passes::ComputeLayout& layout,
+                                     VkDescriptorSet set) const {
+    using Layout = passes::ComputeLayout;
+    layout.write_buffer(set, Layout::shapes, shapes(), 0, shape_bytes_);
+    layout.write_texels(set, Layout::texels, texels());
+    layout.write_buffer(set, Layout::points, instances(), 0, instance_bytes());
+}
+
+}  // namespace nearfield::render

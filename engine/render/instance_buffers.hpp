@@ -1,0 +1,64 @@
+#pragma once
+
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/plan/search_shapes.hpp>
+#include <passes/compute_layout.hpp>
+
+#include <shaders/pairs.h>
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+namespace nearfield::render {
+
+/// The number of boxes over so many instances on all levels, and of the places that the shaders
+/// keep behind them: units of the scratch memory.
+[[nodiscard]] std::uint64_t units_of_boxes(std::uint32_t instances);
+
+/// A world's instances and their shapes on the device. The memory only grows.
+class InstanceBuffers {
+public:
+    explicit InstanceBuffers(const gpu::Device& device);
+
+    /// Makes room for so many instances, all of which have to be written, with query and order.
+    void reserve(std::uint32_t count);
+    /// What holds for all of them; the member `order` is set by this class.
+    void set_query(plan::PairQueryData query);
+    void set(std::uint32_t number, const plan::SearchInstanceData& data) {
+        std::memcpy(instances_.data() + sizeof(plan::PairQueryData) + number * sizeof(data), &data,
+                    sizeof(data));
+    }
+    /// The instances in the order of the hierarchy: a permutation of their numbers.
+    void set_order(std::span<const std::uint32_t> order);
+    /// Takes shapes that have changed to the device, and what was set.
+    void upload(const plan::SearchShapes& shapes);
+
+    /// Differs if buffers or sizes are others than before.
+    [[nodiscard]] std::uint32_t revision() const { return revision_; }
+    [[nodiscard]] std::uint32_t count() const { return count_; }
+    [[nodiscard]] VkBuffer shapes() const { return shapes_.handle(); }
+    [[nodiscard]] std::uint64_t shape_bytes() const { return shape_bytes_; }
+    /// Of the shapes.
+    [[nodiscard]] VkBufferView texels() const { return texels_.get(); }
+    [[nodiscard]] VkBuffer instances() const { return instances_.handle(); }
+    [[nodiscard]] std::uint64_t instance_bytes() const;
+    /// Lets the bindings `shapes`, with their texels, and `points` of a set be the shapes and the
+    /// instances.
+    void write_bindings(const passes::ComputeLayout& layout, VkDescriptorSet set) const;
+
+private:
+    const gpu::Device* device_;
+    gpu::MappedBuffer shapes_;
+    gpu::MappedBuffer instances_;
+    gpu::Owned<VkBufferView> texels_;
+    std::uint32_t revision_ = 0;
+    std::uint32_t room_ = 0;
+    std::uint32_t count_ = 0;
+    std::uint64_t shape_bytes_ = 0;
+    std::uint64_t shapes_revision_ = 0;
+};
+
+}  // namespace nearfield::render
