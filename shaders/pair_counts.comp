@@ -8,6 +8,7 @@
 #include "search.glsl"
 #include "block_sum.glsl"
 #include "pairs.glsl"
+#include "pair_sums.glsl"
 #include "instance_walk.glsl"
 
 layout(local_size_x = group_size) in;

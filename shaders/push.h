@@ -138,6 +138,22 @@ struct PosePush {
     float farthest;  // beyond it coordinates are too coarse for the tolerance
 };
 
+// Of segments and points that ask about a world's instances (world_queries.h).
+struct WorldQueryPush {
+    uint first;  // segment or point of this dispatch
+    uint count;
+    uint instances;  // their number
+    uint boxes;      // as in SearchPush
+    uint answers;    // first unit
+    uint category;   // see WorldFilter
+    uint mask;
+    uint ignored;     // number of an instance, or no_instance
+    float magnitude;  // twice the sum of the origin's coordinates
+    // Of points:
+    float largest;   // distance that counts, rounded up
+    uint is_signed;  // 0: distances from edges, also of points inside
+};
+
 struct ExportPairsPush {
     vec2 origin;
 };

@@ -63,4 +63,18 @@ inline void require_segments(const char* call, std::span<const Segment> segments
     }
 }
 
+inline void require_reach_of_nearest(double max_distance) {
+    if (!(max_distance >= 0.0)) {
+        refuse("find_nearest", "the largest distance is " + geometry::number(max_distance) +
+                                   "; it must be at least 0");
+    }
+}
+
+inline void require_nearest_query(const NearestQuery& query) {
+    require_reach_of_nearest(query.max_distance);
+    if (query.kind != NearestKind::instances && query.kind != NearestKind::edges) {
+        refuse("find_nearest", "the kind is no enumerator");
+    }
+}
+
 }  // namespace nearfield

@@ -35,13 +35,6 @@ void require_room_for_nearest(std::uint32_t count, const char* what, std::size_t
     }
 }
 
-void require_reach_of_nearest(double max_distance) {
-    if (!(max_distance >= 0.0)) {
-        refuse("find_nearest",
-               "the largest distance is " + number(max_distance) + "; it must be at least 0");
-    }
-}
-
 const geometry::Polygon* find_shape(void* store, ShapeHandle shape) {
     return static_cast<batch::ShapeStore*>(store)->find(shape);
 }
@@ -214,10 +207,7 @@ void World::Implementation::divide_places(std::size_t count, std::size_t at_a_ti
 void World::Implementation::find_nearest(const NearestQuery& query, std::span<const Vector2> points,
                                          std::span<NearestHit> hits) {
     require_room_for_nearest(query.count, "points", points.size(), hits.size());
-    require_reach_of_nearest(query.max_distance);
-    if (query.kind != NearestKind::instances && query.kind != NearestKind::edges) {
-        refuse("find_nearest", "the kind is no enumerator");
-    }
+    require_nearest_query(query);
     require_points("find_nearest", points);
     prepare(query.filter, "find_nearest");
     divide_places(

@@ -13,6 +13,7 @@
 #include <engine/world/shape_edge_queries.hpp>
 #include <nearfield/world.hpp>
 #include <nearfield/world_device.hpp>
+#include <nearfield/world_device_queries.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -67,6 +68,12 @@ public:
     void update(DevicePairTableBase& table, const DevicePoses* poses);
     void submit(DevicePairTableBase& table, const DevicePoses* poses);
     void record(DevicePairTableBase& table, const DevicePoses* poses, const Recording& recording);
+    void submit(DeviceRays& rays, std::span<const Segment> segments, const WorldFilter& filter);
+    void cast_rays(DeviceRays& rays, std::span<const Segment> segments, std::span<RayHit> hits,
+                   const WorldFilter& filter);
+    void submit(DeviceNearest& nearest, const NearestQuery& query, std::span<const Vector2> points);
+    void find_nearest(DeviceNearest& nearest, const NearestQuery& query,
+                      std::span<const Vector2> points, std::span<NearestHit> hits);
     [[nodiscard]] bool is_recorded(const DevicePairTableBase& table) const;
 
     [[nodiscard]] std::uint64_t bytes() const;

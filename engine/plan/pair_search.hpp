@@ -17,6 +17,15 @@ namespace nearfield::plan {
 /// What all instances of a shape have alike, except for its places in the input.
 [[nodiscard]] SearchInstanceData data_of_shape(const geometry::Polygon& polygon);
 
+/// Writes a position relative to an origin, rounded to floats, and what the rounding leaves out.
+inline void split(const Vector2& position, const geometry::Vector& origin, vec2& high, vec2& low) {
+    const double x = position.x - origin.x();
+    const double y = position.y - origin.y();
+    high = {static_cast<float>(x), static_cast<float>(y)};
+    low = {static_cast<float>(x - static_cast<double>(high.x)),
+           static_cast<float>(y - static_cast<double>(high.y))};
+}
+
 /// An instance's place: that of its shape's centre, relative to the origin.
 struct InstancePlace {
     geometry::Vector place;

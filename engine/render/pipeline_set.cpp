@@ -51,6 +51,10 @@ const passes::PairSearch& PipelineSet::pair_search(const plan::PairSearchKind& k
     return search ? *search : search.emplace(*device_, made(pair_shaders_, &instance_shaders()), kind);
 }
 
+const passes::WorldQueries& PipelineSet::world_queries(plan::WorldQuestion question) const {
+    return made(world_queries_[static_cast<std::size_t>(question)], &instance_shaders(), question);
+}
+
 void PipelineSet::make(const DeviceTechniques& techniques) const {
     static_cast<void>(exports());
     if (techniques.raster) {
@@ -65,6 +69,9 @@ void PipelineSet::make(const DeviceTechniques& techniques) const {
         static_cast<void>(export_pairs());
         for (const plan::PairSearchKind& kind : plan::pair_search_kinds) {
             static_cast<void>(pair_search(kind));
+        }
+        for (std::size_t question = 0; question < plan::world_questions; ++question) {
+            static_cast<void>(world_queries(static_cast<plan::WorldQuestion>(question)));
         }
     }
 }

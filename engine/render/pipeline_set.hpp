@@ -29,6 +29,7 @@
 #include <passes/resolve_field_points.hpp>
 #include <passes/resolve_points.hpp>
 #include <passes/stencil_pipelines.hpp>
+#include <passes/world_queries.hpp>
 
 #include <array>
 #include <optional>
@@ -98,6 +99,7 @@ public:
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return made(pair_poses_); }
     [[nodiscard]] const passes::PairSearch& pair_search(const plan::PairSearchKind& kind) const;
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return made(export_pairs_); }
+    [[nodiscard]] const passes::WorldQueries& world_queries(plan::WorldQuestion question) const;
 
     /// The time that making them has taken.
     [[nodiscard]] double milliseconds() const { return milliseconds_; }
@@ -132,6 +134,7 @@ private:
     mutable std::optional<passes::PairShaders> pair_shaders_;
     mutable std::array<std::optional<passes::PairSearch>, plan::pair_search_kinds.size()>
         pair_searches_;
+    mutable std::array<std::optional<passes::WorldQueries>, plan::world_questions> world_queries_;
 };
 
 }  // namespace nearfield::render

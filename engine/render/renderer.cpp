@@ -74,6 +74,12 @@ std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQ
     return std::make_unique<PairSearchBuffers>(*device_, layout_, question, timestamps_);
 }
 
+std::unique_ptr<WorldQueryBuffers> Renderer::make_world_query_buffers(
+    plan::WorldQuestion question) {
+    static_cast<void>(passes_.world_queries(question));
+    return std::make_unique<WorldQueryBuffers>(*device_, layout_, question, timestamps_);
+}
+
 /// Batches in flight share ownership of the graph they use, so it may be replaced here.
 std::shared_ptr<CompiledGraph> Renderer::graph_for(GraphKey needs, plan::TileSize extent) {
     constexpr std::uint32_t gap = plan::atlas_gap;
@@ -132,6 +138,7 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     }
     last_graph_.reset();
     last_pairs_.reset();
+    last_question_.reset();
     slot.run(static_cast<std::uint32_t>(tile_batches.size()));
     for (const std::uint32_t number : slot.running()) {
         TileBatchOnDevice& on_device = slot.tile_batch(number);
@@ -253,6 +260,10 @@ std::string Renderer::print(GraphFormat format) const {
     const auto add = [&](const auto& graph, const char* title) {
         text += graph.print(format, title);
     };
+    if (last_question_) {
+        add(world_queries(*last_question_), "questions about a world");
+        return text;
+    }
     if (last_pairs_) {
         if (last_pairs_->takes_poses) {
             add(pair_poses(), "poses of pairs");

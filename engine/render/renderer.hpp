@@ -7,6 +7,7 @@
 #include <engine/render/compiled_graph.hpp>
 #include <engine/render/pair_search_buffers.hpp>
 #include <engine/render/pipeline_set.hpp>
+#include <engine/render/world_query_buffers.hpp>
 #include <nearfield/context.hpp>
 #include <nearfield/result.hpp>
 #include <passes/copy_back.hpp>
@@ -55,7 +56,18 @@ public:
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return passes_.export_pairs(); }
     /// Says that such a search is recorded, for print().
     void note_pairs(const plan::PairSearchKind& kind, bool takes_poses, bool is_resident) {
+        last_question_.reset();
         last_pairs_ = {kind, takes_poses, is_resident};
+    }
+    /// Memory for many questions about a world, likewise; their passes; and that they are recorded.
+    [[nodiscard]] std::unique_ptr<WorldQueryBuffers> make_world_query_buffers(
+        plan::WorldQuestion question);
+    [[nodiscard]] const passes::WorldQueries& world_queries(plan::WorldQuestion question) const {
+        return passes_.world_queries(question);
+    }
+    void note_world_queries(plan::WorldQuestion question) {
+        last_pairs_.reset();
+        last_question_ = question;
     }
     /// The time that making pipelines has taken, which is in no other time.
     [[nodiscard]] double pipeline_milliseconds() const { return passes_.milliseconds(); }
@@ -93,7 +105,7 @@ public:
     void release_target(VkImage image) { target_views_.release(image); }
 
     /// Prints the graphs of the last batch, one after the other, each with a title, or that of a
-    /// later search for pairs; empty before the first.
+    /// later search for pairs or of other questions about a world; empty before the first.
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
@@ -121,8 +133,9 @@ private:
         bool takes_poses;
         bool is_resident;
     };
-    std::optional<Pairs> last_pairs_;  // since the last batch
-    SearchCounts max_counts_{};        // found by a search, reserved for the next
+    std::optional<Pairs> last_pairs_;  // since the last batch, as is the next
+    std::optional<plan::WorldQuestion> last_question_;
+    SearchCounts max_counts_{};      // found by a search, reserved for the next
     std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
 };
 

@@ -1,4 +1,4 @@
-#include <engine/records/nearest_feature.hpp>
+#include <engine/world/nearest_hits.hpp>
 #include <engine/world/nearest_queries.hpp>
 
 #include <algorithm>
@@ -6,11 +6,6 @@
 #include <limits>
 
 namespace nearfield::world {
-namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 void NearestQueries::begin(const Instances& instances, const NearestQuery& query) {
     instances_ = &instances;
@@ -86,11 +81,9 @@ void NearestQueries::find(const Vector2& point, std::span<NearestHit> hits) {
     for (std::size_t i = 0; i < nearest.size(); ++i) {
         const Found& found = nearest[i];
         const simd::TransformedEdges& edges = instances_->edges(found.instance);
-        hits[i] = {instances_->handle(found.instance), found.distance,
-                   edges.rounding + instances_->deviation(found.instance) +
-                       8.0 * epsilon * std::abs(found.distance),
-                   geometry::to_public(found.on_edge.point),
-                   records::feature_at(edges.placed, found.edge, found.on_edge.parameter)};
+        hits[i] =
+            hit_of({instances_->handle(found.instance), found.distance, found.edge, found.on_edge},
+                   edges.placed, edges.rounding);
     }
 }
 

@@ -1,12 +1,11 @@
 #include <engine/base/interruption.hpp>
 #include <engine/base/prefetch.hpp>
 #include <engine/geometry/segment.hpp>
+#include <engine/world/ray_hits.hpp>
 #include <engine/world/ray_queries.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 
 namespace nearfield::world {
 
@@ -21,17 +20,6 @@ constexpr std::uint32_t max_groups = simd::PathStep::max_groups;
 
 std::uint32_t groups_of(const simd::BoxArrays& boxes) {
     return simd::AabbTree::boxes_over(boxes.count);
-}
-
-/// True if an edge joins two vertices at the same place. It has no normal, and the edges beside it
-/// are hit wherever it would be.
-bool is_repeated_vertex(const simd::TransformedEdges& edges, std::uint32_t edge) {
-    // Far from the origin others, too, may have no length left; those are rare.
-    if (edges.start(edge) != edges.end(edge)) {
-        return false;
-    }
-    const geometry::Polygon& polygon = edges.placed.polygon();
-    return polygon.vertices()[edge] == polygon.vertices()[polygon.next(edge)];
 }
 
 void test_boxes(simd::PathStep& step, const double* low_x, std::size_t stride) {
@@ -66,14 +54,6 @@ std::uint32_t first_of(std::uint32_t bits) {
     return static_cast<std::uint32_t>(std::countr_zero(bits));
 }
 
-/// A unit vector. Squares of lengths that are neither tiny nor huge can be used.
-Vector normalized(const Vector& v) {
-    constexpr double low = 1e-200;
-    constexpr double high = 1e200;
-    const double squared = v.squaredNorm();
-    return squared > low && squared < high ? Vector(v / std::sqrt(squared)) : v.stableNormalized();
-}
-
 }  // namespace
 
 void RayQueries::begin(const Instances& instances, const WorldFilter& filter) {
@@ -105,9 +85,7 @@ void RayQueries::start(Search& search, simd::PathStep& step, const Segment& segm
     step.path = {segment.from.x, segment.from.y, segment.to.x, segment.to.y};
     step.inverse = simd::PathInverse(step.path);
     // Of positions along the path.
-    search.rounding = 4.0 * std::numeric_limits<double>::epsilon() *
-                      (start_of(step.path).lpNorm<Eigen::Infinity>() +
-                       end_of(step.path).lpNorm<Eigen::Infinity>());
+    search.rounding = rounding_along(start_of(step.path), end_of(step.path));
     search.number = number;
     search.edges = nullptr;
     search.later_count = 0;
@@ -200,7 +178,8 @@ inline void RayQueries::use_edges(Search& search, simd::PathStep& step) {
         const double parameter =
             geometry::first_meeting(start_of(step.path), end_of(step.path), edges.start(edge),
                                     edges.end(edge), edges.rounding + search.rounding);
-        if (parameter <= step.bound && !is_repeated_vertex(edges, edge)) {
+        if (parameter <= step.bound &&
+            !is_repeated_vertex(edges.start(edge), edges.end(edge), edges.placed.polygon(), edge)) {
             take(search, {parameter, instances_->number(search.instance), search.instance, edge});
             step.bound = all_ ? 1.0 : search.found.parameter;
         }
@@ -241,21 +220,15 @@ inline bool RayQueries::go_on(Search& search, simd::PathStep& step, std::uint32_
 void RayQueries::write(const Search& search, const simd::Path& path, const Found& found,
                        RayHit& hit) const {
     const simd::TransformedEdges& edges = instances_->edges(found.instance);
-    const Vector way = end_of(path) - start_of(path);
-    const Vector along = edges.end(found.edge) - edges.start(found.edge);
-    // Far from the origin an edge may be shorter than what rounding leaves of it.
-    const bool has_length = along != Vector::Zero();
-    Vector normal = normalized(has_length ? Vector(-along.y(), along.x()) : Vector(-way));
-    // Against the way, without a branch, which nobody could predict.
-    normal *= std::copysign(1.0, 0.0 - normal.dot(way));
-    hit.instance = instances_->handle(found.instance);
-    hit.parameter = found.parameter;
-    // What is as close as rounding allows is hit; the edge and the point are rounded once more.
-    hit.error_bound =
-        2.0 * (edges.rounding + search.rounding) + instances_->deviation(found.instance);
-    hit.point = geometry::to_public(start_of(path) + found.parameter * way);
-    hit.normal = geometry::to_public(normal);
-    hit.edge = found.edge;
+    write_hit(start_of(path), end_of(path),
+              {.start = edges.start(found.edge),
+               .end = edges.end(found.edge),
+               .rounding = edges.rounding + search.rounding,
+               .deviation = instances_->deviation(found.instance),
+               .instance = instances_->handle(found.instance),
+               .edge = found.edge,
+               .parameter = found.parameter},
+              hit);
 }
 
 void RayQueries::find_first(std::span<const Segment> segments,

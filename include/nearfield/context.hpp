@@ -360,6 +360,7 @@ private:
     friend struct ContextAccess;       // of diagnostics.hpp
     friend class World;                // of world.hpp
     friend class DevicePairTableBase;  // of world_device.hpp
+    friend class DeviceQueryBase;      // of world_device_queries.hpp
     explicit Context(std::unique_ptr<Implementation> implementation) noexcept;
     std::unique_ptr<Implementation> implementation_;
 };

@@ -17,16 +17,19 @@
 /// or segment, in the caller's memory.
 ///
 /// Queries of a world are answered on the CPU, except for tables that the device fills
-/// (world_device.hpp), exact up to the rounding that each answer's error bound states. What a world
-/// keeps between queries makes them faster and never changes an answer: after any sequence of
-/// calls, each answer is the same, bit for bit, as in a new world to which the present instances
-/// were added in the order of their adding.
+/// (world_device.hpp) and many rays or points that it is asked about (world_device_queries.hpp),
+/// exact up to the rounding that each answer's error bound states. What a world keeps between
+/// queries makes them faster and never changes an answer: after any sequence of calls, each answer
+/// is the same, bit for bit, as in a new world to which the present instances were added in the
+/// order of their adding.
 
 namespace nearfield {
 
 template <class Query>
 class PairTable;
 class DevicePairTableBase;
+class DeviceRays;
+class DeviceNearest;
 struct DevicePoses;
 
 /// Instances of shapes of one context, kept from frame to frame.
@@ -105,6 +108,20 @@ public:
     Status find_nearest(const NearestQuery& query, std::span<const Vector2> points,
                         std::span<NearestHit> hits, const Limits& limits = {});
 
+    /// The same by the device (world_device_queries.hpp), of which `count` is 1, and waits for it.
+    /// Also fails with invalid_query if it is not, with unsupported_technique if the context has no
+    /// pipelines of Technique::compute, with too_large if there are more instances or points than
+    /// DeviceQueryBase allows, with not_ready if `nearest` was submitted and not collected, and as
+    /// Context::run().
+    Status find_nearest(DeviceNearest& nearest, const NearestQuery& query,
+                        std::span<const Vector2> points, std::span<NearestHit> hits,
+                        const Limits& limits = {});
+    /// Does the first half of it: uploads the points, and what has changed of the instances, and
+    /// lets the device begin. The second half is DeviceNearest::collect(). Points, instances and
+    /// shapes may change meanwhile: hits are those of the world as it was. Otherwise likewise.
+    Status submit(DeviceNearest& nearest, const NearestQuery& query,
+                  std::span<const Vector2> points, const Limits& limits = {});
+
     /// For each pose, the nearest instances of the shape there in ascending order of
     /// Clearance::distance, each with its own clearance, as if it were alone in the world: those
     /// that the shape intersects come first, the deepest at the head. Of equally near ones, the
@@ -130,6 +147,18 @@ public:
     /// length, between repeated vertices, are never hit.
     Status cast_rays(std::span<const Segment> segments, RayHits& hits,
                      const WorldFilter& filter = {}, const Limits& limits = {});
+
+    /// The same by the device (world_device_queries.hpp), and waits for it. Also fails with
+    /// unsupported_technique if the context has no pipelines of Technique::compute, with too_large
+    /// if there are more instances or segments than DeviceQueryBase allows, with not_ready if
+    /// `rays` was submitted and not collected, and as Context::run().
+    Status cast_rays(DeviceRays& rays, std::span<const Segment> segments, std::span<RayHit> hits,
+                     const WorldFilter& filter = {}, const Limits& limits = {});
+    /// Does the first half of it: uploads the segments, and what has changed of the instances, and
+    /// lets the device begin. The second half is DeviceRays::collect(). Segments, instances and
+    /// shapes may change meanwhile: hits are those of the world as it was. Otherwise likewise.
+    Status submit(DeviceRays& rays, std::span<const Segment> segments,
+                  const WorldFilter& filter = {}, const Limits& limits = {});
 
     /// For each motion of a shape, when it first touches the world. Fails (invalid_query) if the
     /// spans differ in length, or if the tolerance is too small for the coordinates of what a

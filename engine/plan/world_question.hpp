@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace nearfield::plan {
+
+/// What the device is asked about all instances of a world, many times at once.
+enum class WorldQuestion : std::uint8_t {
+    rays,     ///< the first hit of a segment
+    nearest,  ///< the nearest instance, or edge, of a point
+};
+inline constexpr std::size_t world_questions = 2;
+
+}  // namespace nearfield::plan

@@ -1,0 +1,185 @@
+// Measures many rays and points that are asked about a world, answered by the device and by the CPU
+// on one thread, and prints a table in Markdown. With `--passes`, the times of the passes go to the
+// standard error output.
+
+#include <nearfield/nearfield.hpp>
+
+#include <tests/bench/clocks.hpp>
+#include <tests/bench/take.hpp>
+#include <tests/support/polygons.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using nearfield::bench::median;
+using nearfield::bench::require;
+using nearfield::bench::take;
+
+using nearfield::Context;
+using nearfield::DeviceNearest;
+using nearfield::DeviceRays;
+using nearfield::InstanceHandle;
+using nearfield::NearestHit;
+using nearfield::NearestQuery;
+using nearfield::Pose;
+using nearfield::RayHit;
+using nearfield::Segment;
+using nearfield::Vector2;
+using nearfield::World;
+
+double wall_milliseconds() {
+    return std::chrono::duration<double, std::milli>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+/// Stars of 50 vertices and radius 1, scattered over a square, and what is asked about them.
+class Crowd {
+public:
+    Crowd(Context& context, std::uint32_t count, double side)
+        : random_(count), side_(side), world_(take(World::create(context))) {
+        std::vector<nearfield::ShapeHandle> shapes;
+        shapes.reserve(20);
+        for (int i = 0; i < 20; ++i) {
+            shapes.push_back(take(context.add_shape(nearfield::test::star(random_, 50, 0.5))));
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Pose pose{place(), random_.between(0.0, 6.0)};
+            handles_.push_back(take(world_.add({.shape = shapes[i % 20], .pose = pose})));
+            poses_.push_back(pose);
+        }
+    }
+
+    World& world() { return world_; }
+    void move() {
+        for (Pose& pose : poses_) {
+            pose.translation.x += 1e-3;
+            pose.angle += 1e-3;
+        }
+        require(world_.move(handles_, poses_));
+    }
+    std::vector<Vector2> points(std::size_t count) {
+        std::vector<Vector2> points;
+        while (points.size() < count) {
+            points.push_back(place());
+        }
+        return points;
+    }
+    std::vector<Segment> segments(std::size_t count, double length) {
+        std::vector<Segment> segments;
+        while (segments.size() < count) {
+            const Vector2 from = place();
+            const double angle = random_.between(0.0, 6.3);
+            segments.push_back(
+                {from, {from.x + length * std::cos(angle), from.y + length * std::sin(angle)}});
+        }
+        return segments;
+    }
+
+private:
+    Vector2 place() { return {random_.between(0.0, side_), random_.between(0.0, side_)}; }
+
+    nearfield::test::Random random_;
+    double side_;
+    World world_;
+    std::vector<InstanceHandle> handles_;
+    std::vector<Pose> poses_;
+};
+
+/// The median time of a call, after the instances have moved if they do.
+template <class Call>
+double measure(Crowd& crowd, bool moves, int frames, const Call& call) {
+    std::vector<double> times;
+    for (int frame = -2; frame < frames; ++frame) {
+        if (moves) {
+            crowd.move();
+        }
+        const double start = wall_milliseconds();
+        require(call());
+        if (frame >= 0) {
+            times.push_back(wall_milliseconds() - start);
+        }
+    }
+    return median(times);
+}
+
+bool shows_passes = false;
+
+/// `device` and `cpu` answer the same questions.
+template <class Device, class OnDevice, class OnCpu>
+void compare(Crowd& crowd, const char* kind, std::size_t count, bool moves, const Device& device,
+             const OnDevice& on_device, const OnCpu& on_cpu) {
+    const int frames = count > 100'000 ? 5 : 25;
+    const double whole = measure(crowd, moves, frames, on_device);
+    const nearfield::Timings timings = device.timings();
+    const double cpu = measure(crowd, moves, frames, on_cpu);
+    std::printf("| %u | %s | %s | %zu | %u | %.3f | %.3f | %.3f | %.3f | %.3f | %.2f |\n",
+                crowd.world().size(), moves ? "move" : "stand", kind, count, device.left_to_cpu(),
+                timings.plan + timings.record, timings.device, timings.decode, whole, cpu,
+                whole / cpu);
+    std::fflush(stdout);
+    if (shows_passes) {
+        for (const nearfield::PassTime& pass : timings.passes) {
+            std::fprintf(stderr, "  %s %.3f\n", pass.name.c_str(), pass.milliseconds);
+        }
+    }
+}
+
+void compare_all(Context& context, std::uint32_t instances, double side) {
+    Crowd crowd(context, instances, side);
+    World& world = crowd.world();
+    DeviceRays rays;
+    DeviceNearest nearest;
+    for (const std::size_t count : {1'000U, 30'000U, 1'000'000U}) {
+        for (const bool moves : {false, true}) {
+            std::vector<RayHit> hits(count);
+            for (const double length : {3.0, 30.0}) {
+                const std::vector<Segment> segments = crowd.segments(count, length);
+                compare(
+                    crowd, length < 10.0 ? "rays of 3" : "rays of 30", count, moves, rays,
+                    [&] { return world.cast_rays(rays, segments, hits); },
+                    [&] { return world.cast_rays(segments, hits); });
+            }
+            const std::vector<Vector2> points = crowd.points(count);
+            std::vector<NearestHit> found(count);
+            for (const double reach : {0.25, 1e30}) {
+                const NearestQuery query{.max_distance = reach};
+                compare(
+                    crowd, reach < 1.0 ? "nearest within 0.25" : "nearest", count, moves, nearest,
+                    [&] { return world.find_nearest(nearest, query, points, found); },
+                    [&] { return world.find_nearest(query, points, found); });
+            }
+        }
+    }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    shows_passes = count > 1 && std::string(arguments[1]) == "--passes";
+    try {
+        nearfield::Settings settings;
+        settings.timestamps = shows_passes;
+        settings.pipelines_on_demand = true;
+        Context context = take(Context::create_headless({}, settings));
+        std::printf("Device: %s\n\n", context.device_name().c_str());
+        std::puts(
+            "| objects | they | query | number | left | CPU: upload | wait | CPU: answers | device "
+            "| cpu | device / cpu |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|");
+        compare_all(context, 1'000, 50.0);
+        compare_all(context, 42'000, 325.0);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return EXIT_FAILURE;
+    }
+    return EXIT_SUCCESS;
+}
