@@ -10,11 +10,11 @@
 #include <engine/world/nearest_queries.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
@@ -47,7 +47,7 @@ struct DeviceNearest::Points : State {
     void collect(const char* call, std::span<NearestHit> hits);
 
 private:
-    void write(std::byte* memory) const;
+    void write(std::size_t i, std::byte* memory) const;
     [[nodiscard]] bool decide(std::size_t number, const plan::NearestAnswerData& answer,
                               NearestHit& hit) const;
     void find_by_cpu(std::span<const std::uint32_t> left, std::span<NearestHit> hits);
@@ -57,13 +57,10 @@ private:
     std::vector<world::NearestQueries> queries_;  // by job
 };
 
-void DeviceNearest::Points::write(std::byte* memory) const {
-    for (const Vector2& point : points_) {
-        plan::NearestData data;
-        plan::split(point, instances().origin(), data.at, data.low);
-        std::memcpy(memory, &data, sizeof(data));
-        memory += sizeof(data);
-    }
+void DeviceNearest::Points::write(std::size_t i, std::byte* memory) const {
+    plan::NearestData data;
+    plan::split(points_[i], instances().origin(), data.at, data.low);
+    std::memcpy(memory + i * sizeof(data), &data, sizeof(data));
 }
 
 void DeviceNearest::Points::submit(ContextOnDevice& with, const WorldOnDevice& world,
@@ -78,16 +75,17 @@ void DeviceNearest::Points::submit(ContextOnDevice& with, const WorldOnDevice& w
     plan::WorldQueryPush push{};
     push.largest = plan::rounded_up(query.max_distance);
     push.is_signed = query.kind == NearestKind::instances ? 1 : 0;
-    State::submit("find_nearest", with, world, query.filter, points.size(), push,
-                  [&](std::byte* memory) {
-                      query_ = query;
-                      points_.assign(points.begin(), points.end());
-                      write(memory);
-                  });
+    State::submit(
+        "find_nearest", with, world, query.filter, points.size(), push,
+        [&] {
+            query_ = query;
+            points_.assign(points.begin(), points.end());
+        },
+        [&](std::size_t i, std::byte* memory) { write(i, memory); });
 }
 
-/// Answers a point that can only be near the edges that the device names. Returns false where two
-/// of them are so near that rounding decides.
+/// Answers a point that can only be near the edges that the device names. Returns false if the
+/// device cannot tell, or if two of them are so near that rounding decides.
 bool DeviceNearest::Points::decide(std::size_t number, const plan::NearestAnswerData& answer,
                                    NearestHit& hit) const {
     hit = {};
@@ -99,32 +97,37 @@ bool DeviceNearest::Points::decide(std::size_t number, const plan::NearestAnswer
     }
     const std::uint32_t instance = answer.instance & ~plan::point_in_instance;
     const bool is_inside = (answer.instance & plan::point_in_instance) != 0;
-    const PlacedInstance& own = placed(instance);
     const Vector point = geometry::to_vector(points_[number]);
-    const auto on = [&](std::uint32_t edge) {
-        const geometry::NearestOnSegment on_edge =
-            records::nearest_on_edge(own.polygon, edge, point);
-        return world::NearestOnInstance{{}, std::sqrt(on_edge.squared_distance), edge, on_edge};
-    };
-    world::NearestOnInstance nearest;
-    nearest.distance = std::numeric_limits<double>::infinity();
+    std::array<world::NearestOnInstance, plan::nearest_candidates> all;
+    std::size_t found = 0;
     for (const std::uint32_t edge : answer.edges) {
-        if (edge != plan::no_edge) {
-            const world::NearestOnInstance found = on(edge);
-            const bool is_nearest = found.distance < nearest.distance ||
-                                    (found.distance == nearest.distance && edge < nearest.edge);
-            nearest = is_nearest ? found : nearest;
+        if (edge == plan::no_edge) {
+            continue;
         }
+        if (!exists(instance, edge)) {
+            return false;
+        }
+        const geometry::NearestOnSegment on_edge =
+            records::nearest_on_edge(placed(instance).polygon, edge, point);
+        all[found++] = {{}, std::sqrt(on_edge.squared_distance), edge, on_edge};
     }
-    const auto may_be_nearest = [&](const world::NearestOnInstance& other) {
-        // Of several that are equally near, the CPU's search names any, up to rounding.
+    if (found == 0) {
+        return false;
+    }
+    const PlacedInstance& own = placed(instance);
+    const auto candidates = std::span(all).first(found);
+    world::NearestOnInstance nearest = *std::min_element(
+        candidates.begin(), candidates.end(),
+        [](const world::NearestOnInstance& a, const world::NearestOnInstance& b) {
+            return a.distance != b.distance ? a.distance < b.distance : a.edge < b.edge;
+        });
+    // Of several features of an instance that are equally near, the CPU's search names any.
+    const auto is_rival = [&](const world::NearestOnInstance& other) {
         return other.distance <= nearest.distance * (1.0 + 0x1p-40) + 8.0 * own.rounding &&
                !is_same_feature(own, other, nearest);
     };
     if (query_.kind == NearestKind::instances &&
-        std::any_of(std::begin(answer.edges), std::end(answer.edges), [&](std::uint32_t edge) {
-            return edge != plan::no_edge && may_be_nearest(on(edge));
-        })) {
+        std::any_of(candidates.begin(), candidates.end(), is_rival)) {
         return false;
     }
     if (nearest.distance <= query_.max_distance) {

@@ -38,18 +38,26 @@ struct DeviceQueryBase::State {
     Timings timings;
 
 protected:
-    /// Lets the device answer questions about a world as it is. `write(memory)` writes them there.
-    /// `push`: what depends on their kind.
-    template <class Write>
+    /// Lets the device answer questions about a world as it is. `push`: what depends on their kind;
+    /// `take_down()` keeps the questions until they are collected; `write(i, memory)` writes
+    /// question i to its place in the device's memory, for which many jobs call it.
+    template <class TakeDown, class Write>
     void submit(const char* call, Context::Implementation& with, const WorldOnDevice& world,
                 const WorldFilter& filter, std::size_t questions, plan::WorldQueryPush push,
-                const Write& write) {
+                const TakeDown& take_down, const Write& write) {
         require_collected(call);
         run_or_forget(with, [&] {
             const Stopwatch total;
             start(call, with, world, filter, questions);
             if (instances_.size() > 0 && count > 0) {
-                write(buffers_->reserve(count, context_->memory_limit()));
+                std::byte* const memory = buffers_->reserve(count, context_->memory_limit());
+                take_down();
+                jobs().divide(count, questions_of_part,
+                              [&](std::uint32_t /*job*/, std::size_t first, std::size_t end) {
+                                  for (std::size_t i = first; i < end; ++i) {
+                                      write(i, memory);
+                                  }
+                              });
                 begin(total, push);
             }
             set_submitted(true);
@@ -98,6 +106,11 @@ protected:
     void require_submitted(const char* call) const;
 
     [[nodiscard]] const DeviceInstances& instances() const { return instances_; }
+    /// Whether there is such an edge: a device that fails may leave anything.
+    [[nodiscard]] bool exists(std::uint32_t number, std::uint32_t edge) const {
+        return number < instances_.size() &&
+               edge < instances_.polygon_of(instances_[number].instance.shape)->size();
+    }
     [[nodiscard]] const PlacedInstance& placed(std::uint32_t number) const {
         return placed_.at(number, instances_);
     }

@@ -27,8 +27,9 @@ struct DeviceRays::Rays : State {
     void collect(const char* call, std::span<RayHit> hits);
 
 private:
-    void write(std::byte* memory) const;
-    void hit(std::size_t number, const plan::RayAnswerData& answer, RayHit& hit) const;
+    void write(std::size_t i, std::byte* memory) const;
+    [[nodiscard]] bool decide(std::size_t number, const plan::RayAnswerData& answer,
+                              RayHit& hit) const;
     void hit_by_cpu(std::span<const std::uint32_t> left, std::span<RayHit> hits);
 
     std::vector<Segment> segments_;
@@ -36,30 +37,31 @@ private:
     std::vector<world::RayQueries> queries_;  // by job
 };
 
-void DeviceRays::Rays::write(std::byte* memory) const {
+void DeviceRays::Rays::write(std::size_t i, std::byte* memory) const {
     const Vector& origin = instances().origin();
-    for (const Segment& segment : segments_) {
-        plan::RayData data;
-        plan::split(segment.from, origin, data.from, data.from_low);
-        plan::split(segment.to, origin, data.to, data.to_low);
-        std::memcpy(memory, &data, sizeof(data));
-        memory += sizeof(data);
-    }
+    plan::RayData data;
+    plan::split(segments_[i].from, origin, data.from, data.from_low);
+    plan::split(segments_[i].to, origin, data.to, data.to_low);
+    std::memcpy(memory + i * sizeof(data), &data, sizeof(data));
 }
 
 void DeviceRays::Rays::submit(ContextOnDevice& with, const WorldOnDevice& world,
                               std::span<const Segment> segments, const WorldFilter& filter) {
     require_segments("cast_rays", segments);
     world.instances.require_own(filter.ignored, "cast_rays");
-    State::submit("cast_rays", with, world, filter, segments.size(), {}, [&](std::byte* memory) {
-        segments_.assign(segments.begin(), segments.end());
-        write(memory);
-    });
+    State::submit(
+        "cast_rays", with, world, filter, segments.size(), {},
+        [&] { segments_.assign(segments.begin(), segments.end()); },
+        [&](std::size_t i, std::byte* memory) { write(i, memory); });
 }
 
-/// The hit of a segment that can only hit the edges that the device names.
-void DeviceRays::Rays::hit(std::size_t number, const plan::RayAnswerData& answer,
-                           RayHit& hit) const {
+/// Answers a segment that can only hit the edges that the device names. Returns false if the device
+/// cannot tell.
+bool DeviceRays::Rays::decide(std::size_t number, const plan::RayAnswerData& answer,
+                              RayHit& hit) const {
+    if (answer.instances[0] == plan::answered_by_cpu) {
+        return false;
+    }
     const Vector from = geometry::to_vector(segments_[number].from);
     const Vector to = geometry::to_vector(segments_[number].to);
     const double rounding = world::rounding_along(from, to);
@@ -70,9 +72,12 @@ void DeviceRays::Rays::hit(std::size_t number, const plan::RayAnswerData& answer
         if (instance == plan::no_instance) {
             continue;
         }
+        const std::uint32_t edge = answer.edges[i];
+        if (!exists(instance, edge)) {
+            return false;
+        }
         const PlacedInstance& own = placed(instance);
         const geometry::Polygon& polygon = own.polygon.polygon();
-        const std::uint32_t edge = answer.edges[i];
         const Vector start = own.polygon.vertex(edge);
         const Vector end = own.polygon.vertex(polygon.next(edge));
         const double both = own.rounding + rounding;
@@ -91,10 +96,11 @@ void DeviceRays::Rays::hit(std::size_t number, const plan::RayAnswerData& answer
     }
     if (first_number == plan::no_instance) {
         hit = {};
-        return;
+        return true;
     }
     first.instance = instances()[first_number].handle;
     world::write_hit(from, to, first, hit);
+    return true;
 }
 
 void DeviceRays::Rays::hit_by_cpu(std::span<const std::uint32_t> left, std::span<RayHit> hits) {
@@ -121,11 +127,7 @@ void DeviceRays::Rays::collect(const char* call, std::span<RayHit> hits) {
                 hits[i] = {};
                 return true;
             }
-            if (answer->instances[0] == plan::answered_by_cpu) {
-                return false;
-            }
-            hit(i, *answer, hits[i]);
-            return true;
+            return decide(i, *answer, hits[i]);
         },
         [&](std::span<const std::uint32_t> left) { hit_by_cpu(left, hits); });
 }

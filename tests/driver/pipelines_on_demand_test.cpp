@@ -71,6 +71,22 @@ protected:
                     }
                     DevicePairTable<PenetrationQuery> table({.tolerance = 0.1});
                     return world.update(table);
+                },
+                [this, a] {
+                    World world = *World::create(*context_);
+                    static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
+                    DeviceRays rays;
+                    const std::vector<Segment> segments(1);
+                    std::vector<RayHit> hits(1);
+                    return world.cast_rays(rays, segments, hits);
+                },
+                [this, a] {
+                    World world = *World::create(*context_);
+                    static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
+                    DeviceNearest nearest;
+                    const std::vector<Vector2> points(1);
+                    std::vector<NearestHit> hits(1);
+                    return world.find_nearest(nearest, {}, points, hits);
                 }};
     }
 

@@ -282,6 +282,41 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
     EXPECT_GT(rows, 10U);
 }
 
+TEST_F(SteadyState, RaysAndPointsForTheDeviceAllocateAndCreateNothing) {
+    Expected<World> world = World::create(watched());
+    ASSERT_TRUE(world.has_value()) << world.error().text();
+    const std::vector<ShapeHandle> shapes = shapes_of_frame();
+    std::vector<InstanceHandle> instances;
+    for (std::size_t i = 0; i < 20; ++i) {
+        // Some are at the same place, so that the CPU answers some questions.
+        const Pose pose{{0.8 * static_cast<double>(i / 2), 0.0}, 0.0};
+        const auto instance = world->add({.shape = shapes[0], .pose = pose});
+        ASSERT_TRUE(instance.has_value()) << instance.error().text();
+        instances.push_back(*instance);
+    }
+    std::vector<Segment> segments;
+    std::vector<Vector2> points;
+    for (int i = 0; i < 300; ++i) {
+        points.push_back({0.03 * i, 0.01 * (i % 50)});
+        segments.push_back({{0.03 * i, -3.0}, {0.02 * i, 3.0}});
+    }
+    std::vector<RayHit> hits(segments.size());
+    std::vector<NearestHit> near(points.size());
+    DeviceRays rays;
+    DeviceNearest nearest;
+    expect_nothing_made(200, [&](int number) {
+        const double angle = 0.7 * (number % 8);
+        // The last two move together.
+        const bool ok = world->move(instances[18], {{7.2, 0.0}, angle}).ok() &&
+                        world->move(instances[19], {{7.2, 0.0}, angle}).ok() &&
+                        world->submit(nearest, {}, points).ok() &&
+                        world->cast_rays(rays, segments, hits).ok() && nearest.collect(near).ok();
+        return ok;
+    });
+    EXPECT_GT(nearest.left_to_cpu(), 10U);
+    EXPECT_NE(hits[10].instance, InstanceHandle{});
+}
+
 TEST_F(SteadyState, DevicePairsAtPosesOfTheHostAllocateAndCreateNothing) {
     Expected<World> world = World::create(watched());
     ASSERT_TRUE(world.has_value()) << world.error().text();

@@ -92,6 +92,28 @@ protected:
         EXPECT_GT(table.size(), 0U);
     }
 
+    /// Rays and points that the device is asked about, some of them twice in the same memory.
+    void ask_device(int count) {
+        Expected<World> world = World::create(*context_);
+        ASSERT_TRUE(world.has_value()) << world.error().text();
+        for (int i = 0; i < count; ++i) {
+            const WorldInstance instance{.shape = i % 2 == 0 ? a_ : b_,
+                                         .pose = {{0.5 * i, 0.0}, 0.1 * i}};
+            ASSERT_TRUE(world->add(instance).has_value());
+        }
+        DeviceRays rays;
+        DeviceNearest nearest;
+        const std::vector<Segment> segments(100, Segment{{-5.0, 0.1}, {50.0, 0.2}});
+        const std::vector<Vector2> points(100, Vector2{1.0, 0.1});
+        std::vector<RayHit> hits(segments.size());
+        std::vector<NearestHit> near(points.size());
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_TRUE(world->cast_rays(rays, segments, hits).ok());
+            EXPECT_TRUE(world->find_nearest(nearest, {}, points, near).ok());
+        }
+        EXPECT_NE(hits.front().instance, InstanceHandle{});
+    }
+
     /// The same at poses in a buffer of the host's, with results that stay on the device.
     template <class Query>
     void leave_device_pairs(const Query& query) {
@@ -191,6 +213,12 @@ TEST_F(Hazards, AreInNoUpdateOfDevicePairs) {
         update_device_pairs(count, ContactQuery{.tolerance = 0.05, .contact_distance = 0.05});
         update_device_pairs(count, IntersectionTestQuery{});
     }
+    check();
+}
+
+TEST_F(Hazards, AreInNoQuestionsAboutAWorld) {
+    ask_device(3);
+    ask_device(100);
     check();
 }
 

@@ -26,8 +26,11 @@ protected:
         Expected<World> world = World::create(*context);
         EXPECT_TRUE(world.has_value()) << world.error().text();
         DevicePairTable<PenetrationQuery> table({.tolerance = 0.05});
+        DeviceRays rays;
+        DeviceNearest nearest;
         for (int i = 0; i < 2; ++i) {
             add_pairs(*world, {a, b}, table, numbers);
+            add_hits(*world, rays, nearest, numbers);
             Results results;
             const Status status = context->run(every_query(a, b, i, false), results);
             EXPECT_TRUE(status.ok()) << status.text();
@@ -36,6 +39,26 @@ protected:
             EXPECT_TRUE(context->update_shape(a, coast(random, 80, 0.4)).ok());
         }
         return numbers;
+    }
+
+    /// What rays hit, and what is near their starts.
+    static void add_hits(World& world, DeviceRays& rays, DeviceNearest& nearest,
+                         std::vector<double>& numbers) {
+        std::vector<Segment> segments;
+        std::vector<Vector2> points;
+        for (int i = 0; i < 100; ++i) {
+            points.push_back({0.05 * i - 2.0, 0.03 * (i % 10)});
+            segments.push_back({points.back(), {0.3 * (i % 7), 2.0}});
+        }
+        std::vector<RayHit> hits(segments.size());
+        std::vector<NearestHit> near(points.size());
+        EXPECT_TRUE(world.cast_rays(rays, segments, hits).ok());
+        EXPECT_TRUE(world.find_nearest(nearest, {}, points, near).ok());
+        EXPECT_EQ(rays.left_to_cpu() + nearest.left_to_cpu(), 0U);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            numbers.push_back(hits[i].parameter);
+            numbers.push_back(near[i].distance);
+        }
     }
 
     /// The rows and records of all pairs, after more instances were added.
