@@ -1,6 +1,7 @@
 #include <passes/world_queries.hpp>
 
 #include <shaders/world_nearest_comp.hpp>
+#include <shaders/world_poses_comp.hpp>
 #include <shaders/world_rays_comp.hpp>
 
 namespace nearfield::passes {
@@ -9,14 +10,27 @@ using graph::Access;
 
 namespace {
 
+struct ShaderOfQuestion {
+    gpu::Spirv code;
+    const char* pass;
+};
+
+ShaderOfQuestion shader_of(plan::WorldQuestion question) {
+    switch (question) {
+        case plan::WorldQuestion::rays:
+            return {shaders::world_rays_comp, "first hits"};
+        case plan::WorldQuestion::nearest:
+            return {shaders::world_nearest_comp, "nearest instances"};
+        case plan::WorldQuestion::poses:
+            break;
+    }
+    return {shaders::world_poses_comp, "pose tests"};
+}
+
 ComputeShader make_query_shader(const gpu::Device& device, const ComputeLayout& layout,
-                                plan::WorldQuestion question) {
-    const bool are_rays = question == plan::WorldQuestion::rays;
-    return {
-        device, layout,
-        are_rays ? gpu::Spirv(shaders::world_rays_comp) : gpu::Spirv(shaders::world_nearest_comp),
-        are_rays ? "nearfield first hits" : "nearfield nearest instances",
-        search_constants(device, true)};
+                                const ShaderOfQuestion& shader) {
+    const std::string name = std::string("nearfield ") + shader.pass;
+    return {device, layout, shader.code, name.c_str(), search_constants(device, true)};
 }
 
 /// What the shaders of the instances take of their push constants.
@@ -34,7 +48,7 @@ WorldQueries::WorldQueries(const gpu::Device& device, const ComputeLayout& layou
                            const InstanceShaders* instance_shaders, plan::WorldQuestion question)
     : functions_(&device.functions()),
       instance_shaders_(instance_shaders),
-      shader_(make_query_shader(device, layout, question)),
+      shader_(make_query_shader(device, layout, shader_of(question))),
       shapes_(graph_.import_buffer({"shapes", true, false})),
       instances_(graph_.import_buffer({"instances", true, false})),
       questions_(graph_.import_buffer({"questions", true, false})),
@@ -62,8 +76,7 @@ WorldQueries::WorldQueries(const gpu::Device& device, const ComputeLayout& layou
                                            levels.dispatch(commands, 1);
                                        });
     graph_.add_pass(
-        question == plan::WorldQuestion::rays ? "first hits" : "nearest instances",
-        graph::PassKind::compute,
+        shader_of(question).pass, graph::PassKind::compute,
         [this](graph::PassBuilder& pass) {
             pass.read(shapes_, Access::storage_read_in_compute);
             pass.read(instances_, Access::storage_read_in_compute);

@@ -152,6 +152,10 @@ struct WorldQueryPush {
     // Of points:
     float largest;   // distance that counts, rounded up
     uint is_signed;  // 0: distances from edges, also of points inside
+    // Of poses: of the shape, as in SearchInstanceData
+    uint shape;
+    float unit;
+    float radius;
 };
 
 struct ExportPairsPush {

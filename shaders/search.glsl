@@ -4,6 +4,7 @@
 #include "push.h"
 #include "shapes.glsl"
 #include "scratch.glsl"
+#include "frames.glsl"
 
 // Directions, and how many items there are, are in the scratch memory (pairs.h).
 layout(constant_id = 1) const bool finds_pairs = false;
@@ -42,16 +43,6 @@ SearchDirectionData direction_at(uint index) {
                                lengths.x, lengths.y, lengths.z, lengths.w,
                                uintBitsToFloat(direction_unit(index, 3u).x),
                                float[3](0.0, 0.0, 0.0));
-}
-
-// From A's frame to B's, with the ratio of their units.
-mat2 rotation_of(SearchDirectionData direction) {
-    return mat2(direction.axis.x, direction.axis.y, -direction.axis.y, direction.axis.x);
-}
-
-// A point of A's frame in B's.
-vec2 placed(SearchDirectionData direction, vec2 point) {
-    return rotation_of(direction) * point + direction.offset;
 }
 
 // The direction of the first item of a block.

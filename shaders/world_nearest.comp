@@ -5,6 +5,7 @@
 // one is. Distances are signed, negative inside, or those from edges.
 
 #include "world_queries.glsl"
+#include "crossings.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -171,7 +172,8 @@ bool find_nearest(NearestData point, inout Best best) {
                 go_down(search, box);
             } else if (in_instance) {
                 look_at_chunk(goal, search, box, near);
-            } else if (go_in(search, box)) {
+            } else if (find_instance(search, box)) {
+                go_in(search, search.instance.shape);
                 SearchInstanceData instance = search.instance;
                 near.point = in_frame(instance, point.at, point.low);
                 near.margin = margin_in_frame(instance, sum_of(near.point), places);

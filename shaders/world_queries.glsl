@@ -23,10 +23,6 @@ float sum_of(vec2 v) {
     return abs(v.x) + abs(v.y);
 }
 
-float cross_product(vec2 a, vec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 // A walk over the boxes of the instances. In an instance it goes on over those of the shape, whose
 // lowest level are chunks.
 struct Search {
@@ -138,21 +134,24 @@ void go_down(inout Search search, uint box) {
     mark_all(search, current_group(search).count);
 }
 
-// Goes into the instance at a place of the lowest level, unless the query does not consider it.
-// Returns whether it did.
-bool go_in(inout Search search, uint place) {
+// Looks up the instance at a place of the lowest level. False if the query does not consider it.
+bool find_instance(inout Search search, uint place) {
     uvec4 name = scratch_unit(place_unit(place));  // number, category and mask
     if (name.x == push.ignored || (name.z & push.category) == 0u || (name.y & push.mask) == 0u) {
         return false;
     }
     search.number = name.x;
     search.instance = instance_at(name.x);
-    search.shape = shape_at(search.instance.shape);
+    return true;
+}
+
+// Goes on with the boxes of a shape.
+void go_in(inout Search search, uint shape) {
+    search.shape = shape_at(shape);
     search.outside = search.walk;
     search.walk = start_walk(search.shape);
     search.is_inside = true;
     mark_all(search, current_group(search).count);
-    return true;
 }
 
 // A position in the frame of the instance.

@@ -46,6 +46,20 @@ NEARFIELD_CHECK(sizeof(NearestAnswerData) == 16 * units_of_nearest_answer)
 const uint point_in_instance = 1u << 31;
 const uint no_edge = 0xffffffffu;
 
+// A pose of the shape that is tested, as SearchInstanceData has it.
+struct PoseData {
+    vec2 axis;
+    vec2 high;
+    vec2 low;
+    float rounding NEARFIELD_DEFAULT(0.0F);
+    uint unused NEARFIELD_DEFAULT(0);
+};
+const uint units_of_pose = 2u;
+NEARFIELD_CHECK(sizeof(PoseData) == 16 * units_of_pose)
+// The answer is a word: 1 if the shape meets an instance, 0 if it meets none, or answered_by_cpu.
+// A step of its walk compares all edges of two chunks: see max_query_steps.
+const uint max_pose_steps = 750u;
+
 // In place of the first instance: single precision cannot tell, or the walk is too long.
 const uint answered_by_cpu = 0xfffffffeu;
 

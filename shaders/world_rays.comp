@@ -4,6 +4,7 @@
 // The first hit of each segment, one thread per segment: the edges among which it is.
 
 #include "world_queries.glsl"
+#include "crossings.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -64,16 +65,6 @@ bool take_first(inout Search search, Path path, float bound, out uint box) {
         add_key(choice, i, entry(path, box_of_group(search, group, i), bound));
     }
     return take(search, choice, box);
-}
-
-// Whether both ends of a segment are on the same side of another's line and farther from it than a
-// length. See pair_crossings.comp.
-bool are_on_one_side(vec2 areas, float limit) {
-    return min(areas.x, areas.y) > limit || max(areas.x, areas.y) < -limit;
-}
-
-bool are_on_two_sides(vec2 areas, float limit) {
-    return min(areas.x, areas.y) < -limit && max(areas.x, areas.y) > limit;
 }
 
 void test_edge(Path path, vec4 edge, uint instance, uint number, inout Candidates candidates) {
@@ -144,7 +135,8 @@ bool find_first(RayData ray, inout Candidates candidates) {
             go_down(search, box);
         } else if (search.is_inside) {
             test_chunk(search, path, box, candidates);
-        } else if (go_in(search, box)) {
+        } else if (find_instance(search, box)) {
+            go_in(search, search.instance.shape);
             vec2 from = in_frame(search.instance, ray.from, ray.from_low);
             vec2 to = in_frame(search.instance, ray.to, ray.to_low);
             float margin = margin_in_frame(search.instance, sum_of(from) + sum_of(to), places);

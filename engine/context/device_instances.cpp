@@ -149,14 +149,14 @@ bool DeviceInstances::is_for_cpu(const geometry::Polygon& polygon) const {
                 .ok();
 }
 
-/// What all instances of a shape have alike.
-void DeviceInstances::place_shape(batch::ShapeStore& shapes, ShapeHandle handle) {
+const DeviceInstances::ShapeOfInstances& DeviceInstances::add_shape(batch::ShapeStore& shapes,
+                                                                    ShapeHandle handle) {
     if (handle.index >= shapes_of_.size()) {
         shapes_of_.resize(handle.index + std::size_t{1});
     }
     ShapeOfInstances& shape = shapes_of_[handle.index];
     if (shape.polygon != nullptr) {
-        return;
+        return shape;
     }
     const geometry::Polygon& polygon = *shapes.hold(handle, held_);
     const bool is_left_to_cpu = is_for_cpu(polygon);
@@ -167,6 +167,7 @@ void DeviceInstances::place_shape(batch::ShapeStore& shapes, ShapeHandle handle)
                            ? shapes_.place_parts(polygon, question_->cell)
                            : plan::no_parts;
     shape.polygon = &polygon;
+    return shape;
 }
 
 void DeviceInstances::place_all(batch::ShapeStore& shapes, const world::Instances& instances,
@@ -181,7 +182,7 @@ void DeviceInstances::place_all(batch::ShapeStore& shapes, const world::Instance
         checkpoint();
         Entry& entry = entries_[number];
         const WorldInstance& instance = instances[indices_[number]];
-        place_shape(shapes, instance.shape);
+        static_cast<void>(add_shape(shapes, instance.shape));
         entry.handle = instances.handle(indices_[number]);
         entry.instance.shape = instance.shape;
         places_.push_back(geometry::to_public(

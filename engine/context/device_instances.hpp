@@ -42,6 +42,12 @@ public:
     DeviceInstances(const AnyQuery& query, const plan::PairQuestion& question)
         : query_(&query), question_(&question) {}
 
+    /// A shape of instances. Its polygon is held; null: it has none.
+    struct ShapeOfInstances {
+        const geometry::Polygon* polygon = nullptr;
+        plan::SearchInstanceData data;  // what all its instances have alike
+    };
+
     /// Forgets all instances. `shapes`: that they were of; null: there are none.
     void clear(batch::ShapeStore* shapes);
     /// Writes all of them at the next update, whether they have moved or not.
@@ -50,6 +56,8 @@ public:
     /// messages. `origin`: that the host's own poses are relative to, if it has any.
     void update(const char* call, batch::ShapeStore& shapes, const world::Instances& instances,
                 const std::optional<geometry::Vector>& origin, render::InstanceBuffers& buffers);
+    /// Also takes down a shape that no instance needs to have, until the next update.
+    const ShapeOfInstances& add_shape(batch::ShapeStore& shapes, ShapeHandle handle);
     /// Whether order() is going to sort them: now and then, or after order_soon().
     [[nodiscard]] bool is_order_due() const { return updates_in_order_ >= max_updates_in_order; }
     void order_soon() { updates_in_order_ = max_updates_in_order; }
@@ -84,18 +92,12 @@ private:
     /// After so many updates the instances are ordered anew: boxes that hold what has moved apart
     /// only cost time.
     static constexpr std::uint32_t max_updates_in_order = 64;
-    /// A shape of instances. Its polygon is held; null: it has none.
-    struct ShapeOfInstances {
-        const geometry::Polygon* polygon = nullptr;
-        plan::SearchInstanceData data;  // what all its instances have alike
-    };
 
     void list(const char* call, batch::ShapeStore& shapes, const world::Instances& instances);
     void place(const world::Instances& instances, std::span<const std::uint32_t> numbers,
                render::InstanceBuffers& buffers);
     void place_moved(const world::Instances& instances, render::InstanceBuffers& buffers);
     void place_each_moved(const world::Instances& instances, render::InstanceBuffers& buffers);
-    void place_shape(batch::ShapeStore& shapes, ShapeHandle handle);
     [[nodiscard]] bool is_for_cpu(const geometry::Polygon& polygon) const;
     void place_all(batch::ShapeStore& shapes, const world::Instances& instances,
                    const std::optional<geometry::Vector>& origin, render::InstanceBuffers& buffers);

@@ -77,7 +77,7 @@ void DeviceNearest::Points::submit(ContextOnDevice& with, const WorldOnDevice& w
     push.is_signed = query.kind == NearestKind::instances ? 1 : 0;
     State::submit(
         "find_nearest", with, world, query.filter, points.size(), push,
-        [&] {
+        [&](plan::WorldQueryPush& /*push*/) {
             query_ = query;
             points_.assign(points.begin(), points.end());
         },

@@ -39,7 +39,7 @@ struct DeviceQueryBase::State {
 
 protected:
     /// Lets the device answer questions about a world as it is. `push`: what depends on their kind;
-    /// `take_down()` keeps the questions until they are collected; `write(i, memory)` writes
+    /// `take_down(push)` keeps the questions until they are collected; `write(i, memory)` writes
     /// question i to its place in the device's memory, for which many jobs call it.
     template <class TakeDown, class Write>
     void submit(const char* call, Context::Implementation& with, const WorldOnDevice& world,
@@ -51,7 +51,7 @@ protected:
             start(call, with, world, filter, questions);
             if (instances_.size() > 0 && count > 0) {
                 std::byte* const memory = buffers_->reserve(count, context_->memory_limit());
-                take_down();
+                take_down(push);
                 jobs().divide(count, questions_of_part,
                               [&](std::uint32_t /*job*/, std::size_t first, std::size_t end) {
                                   for (std::size_t i = first; i < end; ++i) {
@@ -110,6 +110,10 @@ protected:
     [[nodiscard]] bool exists(std::uint32_t number, std::uint32_t edge) const {
         return number < instances_.size() &&
                edge < instances_.polygon_of(instances_[number].instance.shape)->size();
+    }
+    /// A shape that questions are about, on the device too.
+    const DeviceInstances::ShapeOfInstances& add_shape(ShapeHandle shape) {
+        return instances_.add_shape(context_->shapes(), shape);
     }
     [[nodiscard]] const PlacedInstance& placed(std::uint32_t number) const {
         return placed_.at(number, instances_);

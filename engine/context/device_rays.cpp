@@ -51,7 +51,7 @@ void DeviceRays::Rays::submit(ContextOnDevice& with, const WorldOnDevice& world,
     world.instances.require_own(filter.ignored, "cast_rays");
     State::submit(
         "cast_rays", with, world, filter, segments.size(), {},
-        [&] { segments_.assign(segments.begin(), segments.end()); },
+        [&](plan::WorldQueryPush& /*push*/) { segments_.assign(segments.begin(), segments.end()); },
         [&](std::size_t i, std::byte* memory) { write(i, memory); });
 }
 

@@ -74,6 +74,9 @@ public:
     void submit(DeviceNearest& nearest, const NearestQuery& query, std::span<const Vector2> points);
     void find_nearest(DeviceNearest& nearest, const NearestQuery& query,
                       std::span<const Vector2> points, std::span<NearestHit> hits);
+    void submit(DevicePoseTests& tests, const PoseTestQuery& query, std::span<const Pose> poses);
+    void test_poses(DevicePoseTests& tests, const PoseTestQuery& query, std::span<const Pose> poses,
+                    std::span<std::uint8_t> intersects);
     [[nodiscard]] bool is_recorded(const DevicePairTableBase& table) const;
 
     [[nodiscard]] std::uint64_t bytes() const;

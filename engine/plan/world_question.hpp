@@ -9,7 +9,8 @@ namespace nearfield::plan {
 enum class WorldQuestion : std::uint8_t {
     rays,     ///< the first hit of a segment
     nearest,  ///< the nearest instance, or edge, of a point
+    poses,    ///< whether a shape at a pose meets any instance
 };
-inline constexpr std::size_t world_questions = 2;
+inline constexpr std::size_t world_questions = 3;
 
 }  // namespace nearfield::plan

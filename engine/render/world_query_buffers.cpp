@@ -13,16 +13,31 @@ namespace {
 
 constexpr std::array<const char*, 1> names_of_query_sets{"nearfield world query set"};
 
+struct Sizes {
+    std::uint64_t question;
+    std::uint64_t answer;
+};
+
+Sizes sizes_of(plan::WorldQuestion question) {
+    switch (question) {
+        case plan::WorldQuestion::rays:
+            return {sizeof(plan::RayData), sizeof(plan::RayAnswerData)};
+        case plan::WorldQuestion::nearest:
+            return {sizeof(plan::NearestData), sizeof(plan::NearestAnswerData)};
+        case plan::WorldQuestion::poses:
+            break;
+    }
+    return {sizeof(plan::PoseData), sizeof(std::uint32_t)};
+}
+
 }  // namespace
 
 WorldQueryBuffers::WorldQueryBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
                                      plan::WorldQuestion question, bool timestamps)
     : device_(&device),
       layout_(&layout),
-      question_bytes_(question == plan::WorldQuestion::rays ? sizeof(plan::RayData)
-                                                            : sizeof(plan::NearestData)),
-      answer_bytes_(question == plan::WorldQuestion::rays ? sizeof(plan::RayAnswerData)
-                                                          : sizeof(plan::NearestAnswerData)),
+      question_bytes_(sizes_of(question).question),
+      answer_bytes_(sizes_of(question).answer),
       submission_(device),
       timestamps_(device, passes::WorldQueries::max_passes, timestamps),
       world_(device),
@@ -105,13 +120,12 @@ void WorldQueryBuffers::begin(const passes::WorldQueries& passes, const plan::Se
         is_bound_ = false;
         bind();
     }
+    const plan::WorldQueryPush placed = item_.push;
+    item_.push = push;
     item_.push.instances = world_.count();
-    item_.push.category = push.category;
-    item_.push.mask = push.mask;
-    item_.push.ignored = push.ignored;
-    item_.push.magnitude = push.magnitude;
-    item_.push.largest = push.largest;
-    item_.push.is_signed = push.is_signed;
+    item_.push.boxes = placed.boxes;
+    item_.push.answers = placed.answers;
+    item_.push.count = placed.count;
     VkCommandBuffer commands = submission_.begin();
     timestamps_.reset(commands);
     passes.record(commands, timestamps_, item_);

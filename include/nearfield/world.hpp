@@ -17,11 +17,11 @@
 /// or segment, in the caller's memory.
 ///
 /// Queries of a world are answered on the CPU, except for tables that the device fills
-/// (world_device.hpp) and many rays or points that it is asked about (world_device_queries.hpp),
-/// exact up to the rounding that each answer's error bound states. What a world keeps between
-/// queries makes them faster and never changes an answer: after any sequence of calls, each answer
-/// is the same, bit for bit, as in a new world to which the present instances were added in the
-/// order of their adding.
+/// (world_device.hpp) and many rays, points or poses that it is asked about
+/// (world_device_queries.hpp), exact up to the rounding that each answer's error bound states. What
+/// a world keeps between queries makes them faster and never changes an answer: after any sequence
+/// of calls, each answer is the same, bit for bit, as in a new world to which the present instances
+/// were added in the order of their adding.
 
 namespace nearfield {
 
@@ -30,6 +30,7 @@ class PairTable;
 class DevicePairTableBase;
 class DeviceRays;
 class DeviceNearest;
+class DevicePoseTests;
 struct DevicePoses;
 
 /// Instances of shapes of one context, kept from frame to frame.
@@ -88,6 +89,18 @@ public:
     Status test_poses(const PoseTestQuery& query, std::span<const Pose> poses,
                       std::span<std::uint8_t> intersects, const Limits& limits = {});
 
+    /// The same by the device (world_device_queries.hpp), and waits for it. Also fails with
+    /// unsupported_technique if the context has no pipelines of Technique::compute, with too_large
+    /// if there are more instances or poses than DeviceQueryBase allows, with not_ready if `tests`
+    /// was submitted and not collected, and as Context::run().
+    Status test_poses(DevicePoseTests& tests, const PoseTestQuery& query,
+                      std::span<const Pose> poses, std::span<std::uint8_t> intersects,
+                      const Limits& limits = {});
+    /// Does the first half of it: uploads the poses, and what has changed of the instances, and
+    /// lets the device begin. The second half is DevicePoseTests::collect(). Poses, instances and
+    /// shapes may change meanwhile: answers are those of the world as it was. Otherwise likewise.
+    Status submit(DevicePoseTests& tests, const PoseTestQuery& query, std::span<const Pose> poses,
+                  const Limits& limits = {});
     /// For each pair of instances a[i] and b[i], 1 if they share a point, otherwise 0: a list of
     /// the caller's own, to which filters do not apply. Exact as test_poses(), and quicker than a
     /// batch where most instances have not moved. An instance whose shape was removed shares no

@@ -11,12 +11,12 @@
 #include <span>
 
 /// \file
-/// Queries of a world that the device answers: many segments or points at once.
+/// Queries of a world that the device answers: many segments, points or poses at once.
 
 namespace nearfield {
 
-/// What DeviceRays and DeviceNearest have in common: memory for one submission, on the device too,
-/// which is kept from one to the next.
+/// What DeviceRays, DeviceNearest and DevicePoseTests have in common: memory for one submission, on
+/// the device too, which is kept from one to the next.
 ///
 /// The device walks over boxes of instances and edges in single precision, and names, for each
 /// question, the edges that the answer may be about. The CPU computes the answer from these, in
@@ -89,6 +89,21 @@ public:
 private:
     friend class World;
     struct NEARFIELD_HIDDEN Points;
+};
+
+/// Poses of a shape that the device tests: World::test_poses(), or World::submit() and collect().
+class NEARFIELD_EXPORT DevicePoseTests : public DeviceQueryBase {
+public:
+    /// Without poses.
+    DevicePoseTests();
+
+    /// Waits for the device after World::submit(), and writes 1 for each pose at which the shape
+    /// and an instance share a point, otherwise 0. Otherwise as DeviceRays::collect().
+    Status collect(std::span<std::uint8_t> intersects, const Limits& limits = {});
+
+private:
+    friend class World;
+    struct NEARFIELD_HIDDEN Tests;
 };
 
 }  // namespace nearfield

@@ -1,6 +1,6 @@
-// Measures many rays and points that are asked about a world, answered by the device and by the CPU
-// on one thread, and prints a table in Markdown. With `--passes`, the times of the passes go to the
-// standard error output.
+// Measures many rays, points and poses that are asked about a world, answered by the device and by
+// the CPU on one thread, and prints a table in Markdown. With `--passes`, the times of the passes
+// go to the standard error output.
 
 #include <nearfield/nearfield.hpp>
 
@@ -51,6 +51,8 @@ public:
         for (int i = 0; i < 20; ++i) {
             shapes.push_back(take(context.add_shape(nearfield::test::star(random_, 50, 0.5))));
         }
+        shape_ = take(context.add_shape(
+            nearfield::test::scaled_and_moved(nearfield::test::star(random_, 20, 0.5), 0.3, {})));
         for (std::uint32_t i = 0; i < count; ++i) {
             const Pose pose{place(), random_.between(0.0, 6.0)};
             handles_.push_back(take(world_.add({.shape = shapes[i % 20], .pose = pose})));
@@ -59,6 +61,7 @@ public:
     }
 
     World& world() { return world_; }
+    [[nodiscard]] nearfield::ShapeHandle shape() const { return shape_; }
     void move() {
         for (Pose& pose : poses_) {
             pose.translation.x += 1e-3;
@@ -90,6 +93,7 @@ private:
     nearfield::test::Random random_;
     double side_;
     World world_;
+    nearfield::ShapeHandle shape_;
     std::vector<InstanceHandle> handles_;
     std::vector<Pose> poses_;
 };
@@ -138,6 +142,7 @@ void compare_all(Context& context, std::uint32_t instances, double side) {
     World& world = crowd.world();
     DeviceRays rays;
     DeviceNearest nearest;
+    nearfield::DevicePoseTests tests;
     for (const std::size_t count : {1'000U, 30'000U, 1'000'000U}) {
         for (const bool moves : {false, true}) {
             std::vector<RayHit> hits(count);
@@ -150,6 +155,16 @@ void compare_all(Context& context, std::uint32_t instances, double side) {
             }
             const std::vector<Vector2> points = crowd.points(count);
             std::vector<NearestHit> found(count);
+            std::vector<Pose> poses;
+            for (const Vector2& point : points) {
+                poses.push_back({point, 17.0 * point.x});
+            }
+            std::vector<std::uint8_t> meets(count);
+            const nearfield::PoseTestQuery test{.shape = crowd.shape()};
+            compare(
+                crowd, "poses", count, moves, tests,
+                [&] { return world.test_poses(tests, test, poses, meets); },
+                [&] { return world.test_poses(test, poses, meets); });
             for (const double reach : {0.25, 1e30}) {
                 const NearestQuery query{.max_distance = reach};
                 compare(

@@ -19,7 +19,7 @@ using test_support::FailingAllocations;
 using test_support::MockDriver;
 using test_support::name_of;
 
-/// Rays and points that the device is asked about, taken through submissions of all kinds.
+/// Rays, points and poses that the device is asked about, taken through submissions of all kinds.
 class QueriesOfDevice {
 public:
     enum class Step {
@@ -48,7 +48,13 @@ public:
         const std::vector<Vector2> points(segments_.size(), Vector2{0.2, 0.1});
         std::vector<NearestHit> near(points.size());
         status = world_->submit(nearest_, {}, points);
-        return status.ok() ? nearest_.collect(near) : status;
+        status = status.ok() ? nearest_.collect(near) : status;
+        if (!status.ok()) {
+            return status;
+        }
+        const std::vector<Pose> poses(segments_.size());
+        std::vector<std::uint8_t> meets(poses.size());
+        return world_->test_poses(tests_, {.shape = shape_}, poses, meets);
     }
 
     void prepare(Step step) {
@@ -88,6 +94,7 @@ public:
     void expect_to_leave_nothing() {
         rays_ = {};
         nearest_ = {};
+        tests_ = {};
         world_.reset();
         EXPECT_TRUE(life_.take(World::Step::destroy).ok());
         EXPECT_EQ(driver().alive(), std::vector<std::string>{});
@@ -104,6 +111,7 @@ private:
         }
         const Expected<ShapeHandle> shape = life_.context().add_shape(std::vector<Ring>{ring});
         ASSERT_TRUE(shape.has_value()) << shape.error().text();
+        shape_ = *shape;
         for (int i = 0; i < count; ++i) {
             const auto instance = world_->add({.shape = *shape, .pose = {{0.1 * i, 0.0}, 0.3}});
             ASSERT_TRUE(instance.has_value()) << instance.error().text();
@@ -115,6 +123,8 @@ private:
     std::optional<nearfield::World> world_;
     DeviceRays rays_;
     DeviceNearest nearest_;
+    DevicePoseTests tests_;
+    ShapeHandle shape_;
     std::vector<Segment> segments_{10, {{-2.0, 0.0}, {2.0, 0.1}}};
     std::vector<InstanceHandle> instances_;
 };
@@ -162,7 +172,7 @@ TEST(DeviceQueriesOfDriver, NameFailingCallsLeakNothingAndWorkAfterwards) {
             }
             ++count[call];
         }
-        EXPECT_EQ(count["vkQueueSubmit"], 2U);
+        EXPECT_EQ(count["vkQueueSubmit"], 3U);
         EXPECT_EQ(count["vkCreateBuffer"] > 0, step != Step::moved);
         EXPECT_EQ(count["vkUpdateDescriptorSets"] > 0, step != Step::moved);
     }

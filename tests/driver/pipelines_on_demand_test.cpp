@@ -87,6 +87,14 @@ protected:
                     const std::vector<Vector2> points(1);
                     std::vector<NearestHit> hits(1);
                     return world.find_nearest(nearest, {}, points, hits);
+                },
+                [this, a] {
+                    World world = *World::create(*context_);
+                    static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
+                    DevicePoseTests tests;
+                    const std::vector<Pose> poses(1);
+                    std::vector<std::uint8_t> meets(1);
+                    return world.test_poses(tests, {.shape = a.shape}, poses, meets);
                 }};
     }
 

@@ -282,7 +282,7 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
     EXPECT_GT(rows, 10U);
 }
 
-TEST_F(SteadyState, RaysAndPointsForTheDeviceAllocateAndCreateNothing) {
+TEST_F(SteadyState, QuestionsForTheDeviceAllocateAndCreateNothing) {
     Expected<World> world = World::create(watched());
     ASSERT_TRUE(world.has_value()) << world.error().text();
     const std::vector<ShapeHandle> shapes = shapes_of_frame();
@@ -302,15 +302,19 @@ TEST_F(SteadyState, RaysAndPointsForTheDeviceAllocateAndCreateNothing) {
     }
     std::vector<RayHit> hits(segments.size());
     std::vector<NearestHit> near(points.size());
+    const std::vector<Pose> poses(300, Pose{{3.6, 0.0}, 0.3});
+    std::vector<std::uint8_t> meets(poses.size());
     DeviceRays rays;
     DeviceNearest nearest;
+    DevicePoseTests tests;
     expect_nothing_made(200, [&](int number) {
         const double angle = 0.7 * (number % 8);
         // The last two move together.
         const bool ok = world->move(instances[18], {{7.2, 0.0}, angle}).ok() &&
                         world->move(instances[19], {{7.2, 0.0}, angle}).ok() &&
                         world->submit(nearest, {}, points).ok() &&
-                        world->cast_rays(rays, segments, hits).ok() && nearest.collect(near).ok();
+                        world->cast_rays(rays, segments, hits).ok() && nearest.collect(near).ok() &&
+                        world->test_poses(tests, {.shape = shapes[1]}, poses, meets).ok();
         return ok;
     });
     EXPECT_GT(nearest.left_to_cpu(), 10U);

@@ -92,7 +92,8 @@ protected:
         EXPECT_GT(table.size(), 0U);
     }
 
-    /// Rays and points that the device is asked about, some of them twice in the same memory.
+    /// Rays, points and poses that the device is asked about, some of them twice in the same
+    /// memory.
     void ask_device(int count) {
         Expected<World> world = World::create(*context_);
         ASSERT_TRUE(world.has_value()) << world.error().text();
@@ -112,6 +113,11 @@ protected:
             EXPECT_TRUE(world->find_nearest(nearest, {}, points, near).ok());
         }
         EXPECT_NE(hits.front().instance, InstanceHandle{});
+        DevicePoseTests tests;
+        const std::vector<Pose> poses(100, Pose{{1.0, 0.1}, 0.2});
+        std::vector<std::uint8_t> meets(poses.size());
+        EXPECT_TRUE(world->test_poses(tests, {.shape = b_}, poses, meets).ok());
+        EXPECT_EQ(meets.front(), 1);
     }
 
     /// The same at poses in a buffer of the host's, with results that stay on the device.

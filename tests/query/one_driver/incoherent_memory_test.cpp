@@ -30,7 +30,7 @@ protected:
         DeviceNearest nearest;
         for (int i = 0; i < 2; ++i) {
             add_pairs(*world, {a, b}, table, numbers);
-            add_hits(*world, rays, nearest, numbers);
+            add_hits(*world, a, rays, nearest, numbers);
             Results results;
             const Status status = context->run(every_query(a, b, i, false), results);
             EXPECT_TRUE(status.ok()) << status.text();
@@ -41,8 +41,8 @@ protected:
         return numbers;
     }
 
-    /// What rays hit, and what is near their starts.
-    static void add_hits(World& world, DeviceRays& rays, DeviceNearest& nearest,
+    /// What rays hit, what is near their starts, and whether a shape there meets anything.
+    static void add_hits(World& world, ShapeHandle shape, DeviceRays& rays, DeviceNearest& nearest,
                          std::vector<double>& numbers) {
         std::vector<Segment> segments;
         std::vector<Vector2> points;
@@ -55,6 +55,15 @@ protected:
         EXPECT_TRUE(world.cast_rays(rays, segments, hits).ok());
         EXPECT_TRUE(world.find_nearest(nearest, {}, points, near).ok());
         EXPECT_EQ(rays.left_to_cpu() + nearest.left_to_cpu(), 0U);
+        DevicePoseTests tests;
+        std::vector<Pose> poses;
+        for (const Vector2& point : points) {
+            poses.push_back({point, point.y});
+        }
+        std::vector<std::uint8_t> meets(poses.size());
+        const PoseTestQuery query{.shape = shape};
+        EXPECT_TRUE(world.test_poses(tests, query, poses, meets).ok());
+        numbers.insert(numbers.end(), meets.begin(), meets.end());
         for (std::size_t i = 0; i < hits.size(); ++i) {
             numbers.push_back(hits[i].parameter);
             numbers.push_back(near[i].distance);
