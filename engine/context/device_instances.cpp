@@ -69,6 +69,7 @@ void DeviceInstances::list(const char* call, batch::ShapeStore& shapes,
         return instances.number(i) < instances.number(j);
     });
     entries_.assign(indices_.size(), {});
+    moves_.assign(indices_.size(), not_placed);
 }
 
 /// Writes instances whose poses may have changed.
@@ -87,7 +88,7 @@ void DeviceInstances::place(const world::Instances& instances,
         const WorldInstance& instance = instances[index];
         Entry& entry = entries_[numbers[i]];
         entry.instance.pose = instance.pose;
-        entry.moves = instances.moves(index);
+        moves_[numbers[i]] = instances.moves(index);
         const ShapeOfInstances& shape = shapes_of_[entry.instance.shape.index];
         plan::SearchInstanceData data = shape.data;
         data.category = entry.category = instance.category;
@@ -116,7 +117,7 @@ void DeviceInstances::place_each_moved(const world::Instances& instances,
     std::array<std::uint32_t, angles_at_once> numbers{};
     std::size_t count = 0;
     for (std::uint32_t number = 0; number < entries_.size(); ++number) {
-        if (instances.moves(indices_[number]) != entries_[number].moves) {
+        if (instances.moves(indices_[number]) != moves_[number]) {
             numbers[count++] = number;
             if (count == angles_at_once) {
                 place(instances, numbers, buffers);
@@ -242,9 +243,7 @@ void DeviceInstances::order(const world::Instances& instances, bool may_move,
     const Vector middle{median(places_, &Vector2::x), median(places_, &Vector2::y)};
     if (middle.norm() > max_radii_from_origin * radii / static_cast<double>(entries_.size())) {
         origin_ += middle;
-        for (Entry& entry : entries_) {
-            entry.moves = not_placed;
-        }
+        std::fill(moves_.begin(), moves_.end(), not_placed);
         place_each_moved(instances, buffers);
     }
 }

@@ -32,9 +32,8 @@ public:
     struct Entry {
         Instance instance;
         InstanceHandle handle;
-        std::uint64_t moves = not_placed;  // see world::Instances
-        geometry::Vector place;            // of its shape's centre, relative to the origin
-        std::uint32_t category = 0;        // see WorldInstance
+        geometry::Vector place;      // of its shape's centre, relative to the origin
+        std::uint32_t category = 0;  // see WorldInstance
         std::uint32_t mask = 0;
     };
 
@@ -72,6 +71,8 @@ public:
 
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(entries_.size()); }
     [[nodiscard]] const Entry& operator[](std::uint32_t number) const { return entries_[number]; }
+    /// Of an instance when it was written last: see world::Instances.
+    [[nodiscard]] std::uint64_t moves(std::uint32_t number) const { return moves_[number]; }
     /// The index of an instance in the world.
     [[nodiscard]] std::uint32_t index(std::uint32_t number) const { return indices_[number]; }
     /// All indices are below it.
@@ -108,6 +109,7 @@ private:
     plan::SearchShapes shapes_;
     batch::ShapeStore::Held held_;
     std::vector<Entry> entries_;
+    std::vector<std::uint64_t> moves_;         // of these, in one piece
     std::vector<std::uint32_t> indices_;       // of these in the world
     std::vector<ShapeOfInstances> shapes_of_;  // by the index of a shape's handle
     std::uint64_t membership_ = 0;             // of the world, at the last update

@@ -100,21 +100,22 @@ bool DeviceNearest::Points::decide(std::size_t number, const plan::NearestAnswer
     const Vector point = geometry::to_vector(points_[number]);
     std::array<world::NearestOnInstance, plan::nearest_candidates> all;
     std::size_t found = 0;
+    const PlacedInstance* own = nullptr;
     for (const std::uint32_t edge : answer.edges) {
         if (edge == plan::no_edge) {
             continue;
         }
-        if (!exists(instance, edge)) {
+        own = find_placed(instance, edge);
+        if (own == nullptr) {
             return false;
         }
         const geometry::NearestOnSegment on_edge =
-            records::nearest_on_edge(placed(instance).polygon, edge, point);
+            records::nearest_on_edge(own->polygon, edge, point);
         all[found++] = {{}, std::sqrt(on_edge.squared_distance), edge, on_edge};
     }
     if (found == 0) {
         return false;
     }
-    const PlacedInstance& own = placed(instance);
     const auto candidates = std::span(all).first(found);
     world::NearestOnInstance nearest = *std::min_element(
         candidates.begin(), candidates.end(),
@@ -123,17 +124,17 @@ bool DeviceNearest::Points::decide(std::size_t number, const plan::NearestAnswer
         });
     // Of several features of an instance that are equally near, the CPU's search names any.
     const auto is_rival = [&](const world::NearestOnInstance& other) {
-        return other.distance <= nearest.distance * (1.0 + 0x1p-40) + 8.0 * own.rounding &&
-               !is_same_feature(own, other, nearest);
+        return other.distance <= nearest.distance * (1.0 + 0x1p-40) + 8.0 * own->rounding &&
+               !is_same_feature(*own, other, nearest);
     };
     if (query_.kind == NearestKind::instances &&
         std::any_of(candidates.begin(), candidates.end(), is_rival)) {
         return false;
     }
     if (nearest.distance <= query_.max_distance) {
-        nearest.instance = instances()[instance].handle;
+        nearest.instance = own->handle;
         nearest.distance = is_inside ? -nearest.distance : nearest.distance;
-        hit = world::hit_of(nearest, own.polygon, own.rounding);
+        hit = world::hit_of(nearest, own->polygon, own->rounding);
     }
     return true;
 }

@@ -186,11 +186,11 @@ const world::Instances& DeviceQueryBase::State::instances_for_cpu() {
                                              .pose = entry.instance.pose,
                                              .category = entry.category,
                                              .mask = entry.mask}));
-        } else if (moves_for_cpu_[i] != entry.moves) {
+        } else if (moves_for_cpu_[i] != instances_.moves(i)) {
             for_cpu_->move(i, entry.instance.pose);
             for_cpu_->set_filter(i, entry.category, entry.mask);
         }
-        moves_for_cpu_[i] = entry.moves;
+        moves_for_cpu_[i] = instances_.moves(i);
     }
     const auto find = [](void* of, ShapeHandle shape) {
         return static_cast<const DeviceInstances*>(of)->polygon_of(shape);

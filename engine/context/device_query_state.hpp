@@ -12,6 +12,7 @@
 #include <engine/world/instances.hpp>
 #include <nearfield/world_device_queries.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -78,21 +79,23 @@ protected:
                 instances_.size() > 0 && count > 0 ? buffers_->answers() : nullptr;
             expect_answers(count);
             clear_left();
-            jobs().divide(count, questions_of_part,
-                          [&](std::uint32_t job, std::size_t first, std::size_t end) {
-                              checkpoint();
-                              for (std::size_t i = first; i < end; ++i) {
-                                  Answer answer;
-                                  if (answers != nullptr) {
-                                      std::memcpy(&answer, answers + i * sizeof(answer),
-                                                  sizeof(answer));
-                                  }
-                                  if (!decide(i, answers != nullptr ? &answer : nullptr)) {
-                                      left_of_jobs_[job].push_back(static_cast<std::uint32_t>(i));
-                                  }
-                              }
-                              finish_answers(end - first);
-                          });
+            jobs().divide(
+                count, questions_of_part,
+                [&](std::uint32_t job, std::size_t first, std::size_t end) {
+                    checkpoint();
+                    constexpr std::size_t ahead = 8;
+                    for (std::size_t i = first; i < end; ++i) {
+                        Answer answer;
+                        if (answers != nullptr) {
+                            prefetch(answers + std::min(i + ahead, end - 1) * sizeof(answer));
+                            std::memcpy(&answer, answers + i * sizeof(answer), sizeof(answer));
+                        }
+                        if (!decide(i, answers != nullptr ? &answer : nullptr)) {
+                            left_of_jobs_[job].push_back(static_cast<std::uint32_t>(i));
+                        }
+                    }
+                    finish_answers(end - first);
+                });
             gather_left();
             if (!left_.empty()) {
                 answer_by_cpu(std::span<const std::uint32_t>(left_));
@@ -102,21 +105,32 @@ protected:
             set_submitted(false);
         });
     }
+    /// Prefetches the instance that an answer begins with, if it names one.
+    void prefetch(const std::byte* answer) const {
+        std::uint32_t number = 0;
+        std::memcpy(&number, answer, sizeof(number));
+        number &= ~plan::point_in_instance;
+        if (number < instances_.size()) {
+            placed_.prefetch(number);
+        }
+    }
     /// Throws (not_ready) unless something was submitted. `call`: for the message.
     void require_submitted(const char* call) const;
 
     [[nodiscard]] const DeviceInstances& instances() const { return instances_; }
-    /// Whether there is such an edge: a device that fails may leave anything.
-    [[nodiscard]] bool exists(std::uint32_t number, std::uint32_t edge) const {
-        return number < instances_.size() &&
-               edge < instances_.polygon_of(instances_[number].instance.shape)->size();
-    }
     /// A shape that questions are about, on the device too.
     const DeviceInstances::ShapeOfInstances& add_shape(ShapeHandle shape) {
         return instances_.add_shape(context_->shapes(), shape);
     }
-    [[nodiscard]] const PlacedInstance& placed(std::uint32_t number) const {
-        return placed_.at(number, instances_);
+    /// The instance of an edge; null if there is no such edge: a device that fails may leave
+    /// anything.
+    [[nodiscard]] const PlacedInstance* find_placed(std::uint32_t number,
+                                                    std::uint32_t edge) const {
+        if (number >= instances_.size()) {
+            return nullptr;
+        }
+        const PlacedInstance& placed = placed_.at(number, instances_);
+        return edge < placed.polygon.polygon().size() ? &placed : nullptr;
     }
     /// The instances as they were submitted, for the CPU's own queries. The index of an instance is
     /// its number.

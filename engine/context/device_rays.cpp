@@ -73,14 +73,14 @@ bool DeviceRays::Rays::decide(std::size_t number, const plan::RayAnswerData& ans
             continue;
         }
         const std::uint32_t edge = answer.edges[i];
-        if (!exists(instance, edge)) {
+        const PlacedInstance* const own = find_placed(instance, edge);
+        if (own == nullptr) {
             return false;
         }
-        const PlacedInstance& own = placed(instance);
-        const geometry::Polygon& polygon = own.polygon.polygon();
-        const Vector start = own.polygon.vertex(edge);
-        const Vector end = own.polygon.vertex(polygon.next(edge));
-        const double both = own.rounding + rounding;
+        const geometry::Polygon& polygon = own->polygon.polygon();
+        const Vector start = own->polygon.vertex(edge);
+        const Vector end = own->polygon.vertex(polygon.next(edge));
+        const double both = own->rounding + rounding;
         const double parameter = geometry::first_meeting(from, to, start, end, both);
         if (!(parameter <= 1.0) || world::is_repeated_vertex(start, end, polygon, edge)) {
             continue;
@@ -90,7 +90,7 @@ bool DeviceRays::Rays::decide(std::size_t number, const plan::RayAnswerData& ans
             (parameter == first.parameter &&
              (instance < first_number || (instance == first_number && edge < first.edge)));
         if (is_first) {
-            first = {start, end, both, polygon.deviation(), {}, edge, parameter};
+            first = {start, end, both, polygon.deviation(), own->handle, edge, parameter};
             first_number = instance;
         }
     }
@@ -98,7 +98,6 @@ bool DeviceRays::Rays::decide(std::size_t number, const plan::RayAnswerData& ans
         hit = {};
         return true;
     }
-    first.instance = instances()[first_number].handle;
     world::write_hit(from, to, first, hit);
     return true;
 }

@@ -4,29 +4,30 @@
 namespace nearfield {
 
 void PlacedInstances::reset(std::uint32_t count) {
-    for (Entry& entry : entries_) {
-        entry.moves = not_placed;
+    if (room_ < count) {
+        room_ = 0;
+        entries_ = std::make_unique<Entry[]>(count);
+        room_ = count;
+        return;
     }
-    while (entries_.size() < count) {
-        entries_.emplace_back();
+    for (std::uint32_t i = 0; i < room_; ++i) {
+        entries_[i].moves = not_placed;
     }
 }
 
-const PlacedInstance& PlacedInstances::at(std::uint32_t number,
-                                          const DeviceInstances& instances) const {
+void PlacedInstances::place(std::uint32_t number, const DeviceInstances& instances) const {
+    const std::lock_guard lock(placing_);
     Entry& entry = entries_[number];
-    const DeviceInstances::Entry& instance = instances[number];
-    if (entry.moves.load(std::memory_order_acquire) != instance.moves) {
-        const std::lock_guard lock(placing_);
-        if (entry.moves.load(std::memory_order_relaxed) != instance.moves) {
-            const geometry::TransformedPolygon placed(
-                *instances.polygon_of(instance.instance.shape), instance.instance.pose);
-            entry.placed.emplace(
-                PlacedInstance{placed, localize::placement_rounding(placed, placed.box())});
-            entry.moves.store(instance.moves, std::memory_order_release);
-        }
+    const std::uint64_t moves = instances.moves(number);
+    if (entry.moves.load(std::memory_order_relaxed) == moves) {
+        return;
     }
-    return *entry.placed;
+    const DeviceInstances::Entry& instance = instances[number];
+    const geometry::TransformedPolygon placed(*instances.polygon_of(instance.instance.shape),
+                                              instance.instance.pose);
+    entry.placed.emplace(PlacedInstance{placed, localize::placement_rounding(placed, placed.box()),
+                                        instance.handle});
+    entry.moves.store(moves, std::memory_order_release);
 }
 
 }  // namespace nearfield

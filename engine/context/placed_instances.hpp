@@ -1,11 +1,13 @@
 #pragma once
 
+#include <engine/base/prefetch.hpp>
 #include <engine/context/device_instances.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -15,6 +17,7 @@ namespace nearfield {
 struct PlacedInstance {
     geometry::TransformedPolygon polygon;
     double rounding = 0.0;  ///< of its vertices: localize::placement_rounding
+    InstanceHandle handle;  ///< in the world
 };
 
 /// The instances that the device names, placed when they are first needed; any number of threads
@@ -25,16 +28,32 @@ public:
     void reset(std::uint32_t count);
     /// Places it anew if it has moved since.
     [[nodiscard]] const PlacedInstance& at(std::uint32_t number,
-                                           const DeviceInstances& instances) const;
+                                           const DeviceInstances& instances) const {
+        Entry& entry = entries_[number];
+        if (entry.moves.load(std::memory_order_acquire) != instances.moves(number)) {
+            place(number, instances);
+        }
+        return *entry.placed;
+    }
+    /// Says that it will be needed soon.
+    void prefetch(std::uint32_t number) const {
+        const auto* const entry = reinterpret_cast<const std::byte*>(&entries_[number]);
+        nearfield::prefetch(entry);
+        nearfield::prefetch(entry + cache_line);
+    }
 
 private:
-    struct Entry {
-        std::optional<PlacedInstance> placed;
-        std::atomic<std::uint64_t> moves = not_placed;  // of the instance when it was placed
-    };
     static constexpr std::uint64_t not_placed = UINT64_MAX;
+    static constexpr std::size_t cache_line = 64;
+    struct alignas(cache_line) Entry {
+        std::atomic<std::uint64_t> moves = not_placed;  // of the instance when it was placed
+        std::optional<PlacedInstance> placed;
+    };
 
-    mutable std::deque<Entry> entries_;  // which stay where they are
+    void place(std::uint32_t number, const DeviceInstances& instances) const;
+
+    std::unique_ptr<Entry[]> entries_;
+    std::uint32_t room_ = 0;
     mutable std::mutex placing_;
 };
 
