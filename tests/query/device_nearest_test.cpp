@@ -83,6 +83,28 @@ TEST_F(DeviceNearestOfWorld, AmongTilesThatTouch) {
     }
 }
 
+/// On the middle line of a rectangle two edges are as near but for rounding, of which the CPU's
+/// search names one.
+TEST_F(DeviceNearestOfWorld, InTheMiddleOfInstances) {
+    DeviceNearest nearest;
+    Random random(seed + 9000);
+    const ShapeHandle shape = add_shape(rectangle({-2.0, -0.3}, {2.0, 0.3}));
+    std::vector<Vector2> points;
+    for (int i = 0; i < 30; ++i) {
+        const Pose pose{{10.0 * i, 0.1 * i}, random.between(-4.0, 4.0)};
+        add(shape, pose);
+        for (int k = 0; k < 20; ++k) {
+            const double along = random.between(-1.5, 1.5);
+            points.push_back({pose.translation.x + std::cos(pose.angle) * along,
+                              pose.translation.y + std::sin(pose.angle) * along});
+        }
+    }
+    EXPECT_EQ(compare(nearest, {}, points), points.size());
+    EXPECT_EQ(nearest.left_to_cpu(), points.size());
+    EXPECT_EQ(compare(nearest, {.kind = NearestKind::edges}, points), points.size());
+    EXPECT_EQ(nearest.left_to_cpu(), 0U);
+}
+
 TEST_F(DeviceNearestOfWorld, ConsiderFilters) {
     DeviceNearest nearest;
     Random random(seed + 5000);
@@ -120,9 +142,12 @@ TEST_F(DeviceNearestOfWorld, CountUpToTheLargestDistanceAlsoInside) {
     add(add_shape(rectangle({0.0, -2.0}, {0.5, 2.0})), {});
     const std::vector<Vector2> points{
         {0.0, 0.0}, {0.25, 0.25}, {-0.5, 0.0}, {3.0, 3.0}, {7.0, 0.0}};
-    for (const double reach : {5.0, 4.0, 3.75, 3.0, 1.0, 0.75, 0.5, 0.25, 0.1}) {
+    for (const double reach : {5.0, 4.0, 3.75, 3.5, 3.0, 1.0, 0.75, 0.5, 0.25, 0.1}) {
         SCOPED_TRACE(reach);
         compare(nearest, {.max_distance = reach}, points);
+        // As near to it as single precision cannot tell.
+        compare(nearest, {.max_distance = reach * (1.0 - 1e-10)}, points);
+        compare(nearest, {.max_distance = reach * (1.0 + 1e-10)}, points);
     }
 }
 

@@ -72,6 +72,33 @@ TEST_F(DeviceRaysOfWorld, AmongTilesThatTouch) {
     }
 }
 
+/// So near vertices that single precision cannot tell what is hit, of what is in front or behind.
+TEST_F(DeviceRaysOfWorld, PastVertices) {
+    DeviceRays rays;
+    for_each_case(seed + 9000, 8, [&](Random& random) {
+        const Rings rings = star(random, 12, 0.5);
+        const ShapeHandle shape = add_shape(rings);
+        std::vector<InstanceHandle> added;
+        std::vector<Segment> segments;
+        for (int i = 0; i < 40; ++i) {
+            const Pose pose = any_pose(random, 6.0);
+            added.push_back(add(shape, pose));
+            const double cosine = std::cos(pose.angle);
+            const double sine = std::sin(pose.angle);
+            for (const Vector2& v : rings[0]) {
+                const Vector2 vertex{pose.translation.x + cosine * v.x - sine * v.y,
+                                     pose.translation.y + sine * v.x + cosine * v.y};
+                const Vector2 from = any_place(random, 8.0);
+                const Vector2 beside = any_place(random, random.scale(1e-10, 1e-6), vertex);
+                segments.push_back({from, {2.0 * beside.x - from.x, 2.0 * beside.y - from.y}});
+            }
+        }
+        EXPECT_GT(compare(rays, segments), 400U);
+        EXPECT_LT(rays.left_to_cpu(), 20U);
+        remove(added);
+    });
+}
+
 TEST_F(DeviceRaysOfWorld, ConsiderFilters) {
     DeviceRays rays;
     Random random(seed + 5000);
