@@ -187,7 +187,8 @@ const world::Instances& DeviceQueryBase::State::instances_for_cpu() {
                                              .category = entry.category,
                                              .mask = entry.mask}));
         } else if (moves_for_cpu_[i] != instances_.moves(i)) {
-            for_cpu_->move(i, entry.instance.pose);
+            const InstanceHandle handle = for_cpu_->handle(i);
+            for_cpu_->move({&handle, 1}, {&entry.instance.pose, 1});
             for_cpu_->set_filter(i, entry.category, entry.mask);
         }
         moves_for_cpu_[i] = instances_.moves(i);
