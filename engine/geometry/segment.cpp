@@ -150,9 +150,17 @@ ClosestOfSegments closest_of_segments(const Vector& a, const Vector& b, const Ve
         const double a_side = std::abs(cross(d - c, a - c));
         const double b_side = std::abs(cross(d - c, b - c));
         if (a_side + b_side > 0.0 && c_side + d_side > 0.0) {
-            closest.first_parameter = a_side / (a_side + b_side);
-            closest.second_parameter = c_side / (c_side + d_side);
-            closest.first = a + closest.first_parameter * (b - a);
+            const double on_first = a_side / (a_side + b_side);
+            const double on_second = c_side / (c_side + d_side);
+            const Vector crossing = a + on_first * (b - a);
+            const double apart = (c + on_second * (d - c) - crossing).squaredNorm();
+            // Of segments along one line the sides are rounding alone, and locate nothing; then an
+            // end is on the other segment.
+            if (apart < closest.squared_distance) {
+                closest.first = crossing;
+                closest.first_parameter = on_first;
+                closest.second_parameter = on_second;
+            }
             closest.second = closest.first;
             closest.squared_distance = 0.0;
         }

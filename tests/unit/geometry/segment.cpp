@@ -150,5 +150,29 @@ TEST(SegmentsMeet, WhereTheirDistanceIsWithinTheMargin) {
     EXPECT_GT(without, 2000);
 }
 
+TEST(ClosestOfSegments, AlongOneLineHaveACommonPoint) {
+    int intersecting = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double angle = 0.00314 * i;
+        const auto at = [&](double x) {
+            return Vector(0.3 + x * std::cos(angle), 0.2 + x * std::sin(angle));
+        };
+        const auto check = [&](const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+            const ClosestOfSegments closest = closest_of_segments(a, b, c, d);
+            EXPECT_LT(closest.squared_distance, 1e-28);
+            intersecting += closest.squared_distance == 0.0 ? 1 : 0;
+            EXPECT_LT(nearest_on_segment(closest.first, a, b).squared_distance, 1e-28) << i;
+            EXPECT_LT(nearest_on_segment(closest.first, c, d).squared_distance, 1e-28) << i;
+            EXPECT_LT(nearest_on_segment(closest.second, c, d).squared_distance, 1e-28) << i;
+            EXPECT_LT((a + closest.first_parameter * (b - a) - closest.first).norm(), 1e-14);
+            EXPECT_LT((c + closest.second_parameter * (d - c) - closest.second).norm(), 1e-14);
+        };
+        check(at(-2.0), at(2.0), at(-1.0), at(1.0));
+        check(at(-1.0), at(1.0), at(-2.0), at(2.0));
+        check(at(-2.0), at(1.0), at(2.0), at(-1.0));
+    }
+    EXPECT_GT(intersecting, 1000);
+}
+
 }  // namespace
 }  // namespace nearfield::geometry
