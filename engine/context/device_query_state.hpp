@@ -24,7 +24,7 @@
 namespace nearfield {
 
 /// What questions of all kinds keep from one submission to the next. Its members throw.
-struct DeviceQueryBase::State {
+struct NEARFIELD_HIDDEN DeviceQueryBase::State {
     using ContextOnDevice = Context::Implementation;
 
     explicit State(plan::WorldQuestion question);

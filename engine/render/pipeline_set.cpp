@@ -48,7 +48,8 @@ const passes::PairSearch& PipelineSet::pair_search(const plan::PairSearchKind& k
         std::find(plan::pair_search_kinds.begin(), plan::pair_search_kinds.end(), kind);
     auto& search =
         pair_searches_[static_cast<std::size_t>(found - plan::pair_search_kinds.begin())];
-    return search ? *search : search.emplace(*device_, made(pair_shaders_, &instance_shaders()), kind);
+    return search ? *search
+                  : search.emplace(*device_, made(pair_shaders_, &instance_shaders()), kind);
 }
 
 const passes::WorldQueries& PipelineSet::world_queries(plan::WorldQuestion question) const {
