@@ -89,7 +89,7 @@ PairSearchBuffers::Bytes PairSearchBuffers::place_arrays() {
     push.frames = layout.units(pairs);
     push.first_directions = layout.sums(items);
     // Two sums for each block of instances, which begin whole units.
-    constexpr std::uint64_t more = 8 * plan::search_block;
+    constexpr std::uint64_t more = std::uint64_t{8} * plan::search_block;
     const std::uint64_t instances = 2 * std::uint64_t{push.instances} + more;
     layout.add_stages(items, edges, points, std::max<std::uint64_t>(pairs, instances), push);
     Bytes bytes{layout.bytes(), records_bytes(), bytes_of_rows(rows)};

@@ -26,9 +26,9 @@ struct PenetrationRecord {
     Vector2 direction;   ///< unit vector from `point` to `nearest`: points out of B
     Vector2 nearest;     ///< the point of B's boundary nearest to `point`
     Feature feature;     ///< of B: where `nearest` lies
-    /// False if the direction is one of several: another edge of B has a point within `depth` +
-    /// d/1000 of `point` that is farther from `nearest` than 2 * sqrt((depth + d/1000)^2 -
-    /// depth^2), twice what a straight edge explains.
+    /// False if the direction is one of several: the point of another edge of B nearest to `point`
+    /// is within `depth` + d/1000 of it, and farther from `nearest` than 2 * sqrt((depth +
+    /// d/1000)^2 - depth^2), twice what a straight edge explains.
     bool unique = true;
 };
 
