@@ -46,7 +46,7 @@ public:
 
 protected:
     struct State;
-    explicit DeviceQueryBase(std::unique_ptr<State> state) noexcept;  ///< one of a kind of state
+    explicit DeviceQueryBase(std::unique_ptr<State> state) noexcept;  ///< of one kind of question
     ~DeviceQueryBase();
     /// Takes the contents of another one, which can then only be destroyed or assigned to.
     DeviceQueryBase(DeviceQueryBase&&) noexcept;
@@ -54,7 +54,7 @@ protected:
     DeviceQueryBase& operator=(DeviceQueryBase&&) noexcept;
 
     friend class World;
-    std::unique_ptr<State> state_;  ///< what it consists of
+    std::unique_ptr<State> state_;  ///< never null, unless moved from
 };
 
 /// Segments whose first hits the device finds: World::cast_rays(), or World::submit() and
