@@ -76,7 +76,13 @@ private:
     void set_submitted(bool is_submitted);
     /// Throws what the action throws, after which the table is empty.
     template <class Action>
-    void run_or_start_anew(Context::Implementation& context, const Action& action);
+    void run_or_start_anew(Context::Implementation& context, const Action& action) {
+        const Status status = context.unless_lost(action);
+        if (!status.ok()) {
+            start_anew();
+            throw StatusException(status);
+        }
+    }
     void require_collected(const char* call) const;
     void require_complete_frame(const char* call) const;
     void report_open_frame() const noexcept;

@@ -222,16 +222,6 @@ void DevicePairTableBase::State::finish() {
     timings.total += total.milliseconds();
 }
 
-template <class Action>
-void DevicePairTableBase::State::run_or_start_anew(Context::Implementation& context,
-                                                   const Action& action) {
-    const Status status = context.unless_lost(action);
-    if (!status.ok()) {
-        start_anew();
-        throw StatusException(status);
-    }
-}
-
 void DevicePairTableBase::State::require_collected(const char* call) const {
     if (frame_) {
         require_complete_frame(call);
