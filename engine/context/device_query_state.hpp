@@ -176,7 +176,6 @@ private:
     DeviceInstances instances_{query_, pair_question_};
     PlacedInstances placed_;
     std::optional<world::Instances> for_cpu_;  // brought up to date when they are needed
-    std::uint64_t for_cpu_version_ = 0;
     std::vector<std::uint64_t> moves_for_cpu_;
     WorldFilter filter_;
     std::uint32_t ignored_ = plan::no_instance;

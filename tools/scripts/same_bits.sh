@@ -47,7 +47,10 @@ hash_program() {
         -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="$flags" -DCMAKE_UNITY_BUILD=ON \
         -DNEARFIELD_BUILD_TOOLS=OFF -DNEARFIELD_BUILD_TESTS=OFF -DNEARFIELD_INSTALL=OFF \
         "${options[@]}" >/dev/null
-    cmake --build "$folder" --parallel "$jobs" --target nearfield_static >/dev/null
+    cmake --build "$folder" --parallel "$jobs" --target nearfield_static >"$folder/build.log" || {
+        cat "$folder/build.log" >&2  # the compiler's errors stand there
+        die "$name does not build"
+    }
     mkdir -p "$folder/generated/embedded" "$folder/objects"
     for file in "$root"/tests/data/*.geojson; do
         local stem
