@@ -77,4 +77,23 @@ inline void require_nearest_query(const NearestQuery& query) {
     }
 }
 
+/// Refuses queries of pairs that the CPU does not answer; returns what it is asked.
+template <class Query>
+[[nodiscard]] Query asked_of_cpu(const char* call, Query query) {
+    bool on_device = query.technique == Technique::raster || query.technique == Technique::compute;
+    if constexpr (requires { query.resident; }) {
+        on_device = on_device || query.resident;
+    }
+    if (on_device) {
+        refuse(call,
+               "pairs of a world are answered by Technique::cpu; the query asks for another "
+               "technique, or for resident results");
+    }
+    query.technique = Technique::cpu;
+    if (Status status = plan::check_query(query, {}); !status.ok()) {
+        refuse(call, status.message());
+    }
+    return query;
+}
+
 }  // namespace nearfield

@@ -146,30 +146,6 @@ void World::Implementation::test_poses(const PoseTestQuery& query, std::span<con
                  });
 }
 
-void World::Implementation::test_pairs(std::span<const InstanceHandle> a,
-                                       std::span<const InstanceHandle> b,
-                                       std::span<std::uint8_t> intersects) {
-    if (a.size() != intersects.size() || b.size() != intersects.size()) {
-        refuse("test_pairs", std::to_string(a.size()) + " and " + std::to_string(b.size()) +
-                                 " instances form no pairs with space for " +
-                                 std::to_string(intersects.size()) + " answers");
-    }
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        static_cast<void>(instances_.find(a[i], "test_pairs"));
-        static_cast<void>(instances_.find(b[i], "test_pairs"));
-    }
-    prepare();
-    expect_answers(a.size());
-    jobs_.divide(a.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            checkpoint();
-            intersects[i] =
-                instances_.intersect(a[i].index, b[i].index, scratch_[job].overlap_test) ? 1 : 0;
-            finish_answers(1);
-        }
-    });
-}
-
 void World::Implementation::find_clearances(const ClearanceQuery& query,
                                             std::span<const Pose> poses,
                                             std::span<Clearance> clearances) {

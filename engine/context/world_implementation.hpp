@@ -3,6 +3,7 @@
 #include <engine/base/jobs.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/context/job_lists.hpp>
+#include <engine/cpu/point_penetration.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
@@ -14,9 +15,11 @@
 #include <nearfield/world.hpp>
 #include <nearfield/world_device.hpp>
 #include <nearfield/world_device_queries.hpp>
+#include <nearfield/world_pairs.hpp>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +41,9 @@ public:
                     std::span<std::uint8_t> intersects);
     void test_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
                     std::span<std::uint8_t> intersects);
+    void find_penetrations(const PenetrationQuery& query, std::span<const InstanceHandle> a,
+                           std::span<const InstanceHandle> b,
+                           std::span<PairRow<PenetrationQuery>> rows);
     void find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
                          std::span<Clearance> clearances);
     void find_nearest(const NearestQuery& query, std::span<const Vector2> points,
@@ -92,6 +98,8 @@ private:
         world::RayQueries rays;
         world::OverlapQueries overlaps;
         narrowphase::OverlapTest overlap_test;
+        std::optional<cpu::PointPenetration> penetration;  // whose construction may fail
+        PenetrationResult penetration_result;
         std::vector<std::uint32_t> found;
     };
     /// What a query of the batch is about: a sweep or a pair by its number, and an instance.
@@ -110,6 +118,21 @@ private:
     template <class Query>
     void merge_rows(PairTable<Query>& table);
 
+    /// Throws unless all instances exist, and there is space for an answer to each pair.
+    void require_pairs(const char* call, std::span<const InstanceHandle> a,
+                       std::span<const InstanceHandle> b, std::size_t answers) const;
+    /// By a batch.
+    void find_sampled_penetrations(PenetrationQuery query, std::span<const InstanceHandle> a,
+                                   std::span<const InstanceHandle> b,
+                                   std::span<PairRow<PenetrationQuery>> rows);
+    /// About A's vertices, by one job.
+    void find_penetrations(const PenetrationQuery& query, std::span<const InstanceHandle> a,
+                           std::span<const InstanceHandle> b,
+                           std::span<PairRow<PenetrationQuery>> rows, Job& job) const;
+    /// The answer for two instances, about A's vertices; its status is that of the pair.
+    [[nodiscard]] const PenetrationResult& find_penetration(
+        const PenetrationQuery& query, std::uint32_t a, std::uint32_t b,
+        const cpu::PointPenetration::Reverse* reverse, Job& job) const;
     [[nodiscard]] Instance instance_of(std::uint32_t index) const {
         return {instances_[index].shape, instances_[index].pose};
     }

@@ -65,20 +65,7 @@ void check(const PairTable<Query>& table) {
         refuse("update", "the reach is " + geometry::number(reach) +
                              "; it must be a finite number of at least 0");
     }
-    Query query = table.query();
-    bool on_device = query.technique == Technique::raster || query.technique == Technique::compute;
-    if constexpr (requires { query.resident; }) {
-        on_device = on_device || query.resident;
-    }
-    if (on_device) {
-        refuse("update",
-               "pairs of a world are answered by Technique::cpu; the table's query asks "
-               "for another technique, or for resident results");
-    }
-    query.technique = Technique::cpu;
-    if (Status status = plan::check_query(query, {}); !status.ok()) {
-        refuse("update", status.message());
-    }
+    static_cast<void>(asked_of_cpu("update", table.query()));
 }
 
 }  // namespace

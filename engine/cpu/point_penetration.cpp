@@ -26,32 +26,38 @@ void PointPenetration::answer(const plan::PlannedQuery& query,
     }
     complete_if_near(pair, instances);
     const auto& asked = std::get<PenetrationQuery>(*query.query);
-    const bool is_sampled = asked.points == PenetrationPoints::boundary;
-    if (asked.records && a.box.intersects(b.box)) {
+    answer(asked, a, b, reversed ? &last_.known : nullptr, result);
+    last_ = {&query, pair, {result.intersects, asked.points == PenetrationPoints::boundary}};
+}
+
+void PointPenetration::answer(const PenetrationQuery& query, const TransformedEdges& a,
+                              const TransformedEdges& b, const Reverse* reverse,
+                              PenetrationResult& result) {
+    const bool are_near = a.box.intersects(b.box);
+    if (query.records && are_near) {
         result.regions.push_back(
             plan::region_of(plan::Grid::covering(a.box.intersection(b.box), result.cell)));
     }
-    if (!reversed || last_.intersects) {
-        inside_.clear();
-        if (a.box.intersects(b.box) && is_sampled) {
-            samples_.find(a, b, reversed && last_.is_sampled, result.cell, inside_);
-        } else if (a.box.intersects(b.box)) {
-            find_vertices_inside(a.starts(), b);
-        }
-        const double touching = result.tolerance * plan::touching_depth;
-        const double margin = result.tolerance * plan::uniqueness_margin;
-        if (asked.records) {
-            nearest_.find(inside_.arrays(), b, margin);
-            write_records(touching, b, result);
-        } else {
-            write_deepest(touching, margin, b, result);
-        }
-        result.intersects = inside_.size() > 0;
-        // A ring of A inside B yields at least one point: it has a vertex that is a sample.
-        result.intersects =
-            result.intersects || reversed || overlap_test_.intersect_without_vertex_inside(a, b);
+    if (reverse != nullptr && !reverse->intersects) {
+        return;
     }
-    last_ = {&query, pair, result.intersects, is_sampled};
+    inside_.clear();
+    if (are_near && query.points == PenetrationPoints::boundary) {
+        samples_.find(a, b, reverse != nullptr && reverse->is_sampled, result.cell, inside_);
+    } else if (are_near) {
+        find_vertices_inside(a.starts(), b);
+    }
+    const double touching = query.tolerance * plan::touching_depth;
+    const double margin = query.tolerance * plan::uniqueness_margin;
+    if (query.records) {
+        nearest_.find(inside_.arrays(), b, margin);
+        write_records(touching, b, result);
+    } else {
+        write_deepest(touching, margin, b, result);
+    }
+    // A ring of A inside B yields at least one point: it has a vertex that is a sample.
+    result.intersects = inside_.size() > 0 || reverse != nullptr ||
+                        overlap_test_.intersect_without_vertex_inside(a, b);
 }
 
 void PointPenetration::find_vertices_inside(const simd::PointArrays& vertices,

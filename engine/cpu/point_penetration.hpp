@@ -30,14 +30,23 @@ public:
     void answer(const plan::PlannedQuery& query, simd::TransformedInstances& instances,
                 PenetrationResult& result);
 
+    /// What is known from the same pair in the opposite order, if that was answered just before.
+    struct Reverse {
+        bool intersects = false;
+        bool is_sampled = false;  ///< the crossings were found
+    };
+    /// The same for shapes in their places, which permit the tolerance and, unless both are small,
+    /// are complete if their boxes intersect. `reverse`: null if nothing is known.
+    void answer(const PenetrationQuery& query, const simd::TransformedEdges& a,
+                const simd::TransformedEdges& b, const Reverse* reverse, PenetrationResult& result);
+
 private:
     /// The pair of the previous query. Queries in both directions usually follow each other, and
     /// both share the answer to whether the shapes intersect.
     struct Pair {
         const plan::PlannedQuery* query = nullptr;
         InstancePairIndex index;
-        bool intersects = false;
-        bool is_sampled = false;  ///< the crossings were found
+        Reverse known;
     };
 
     /// Finds the vertices of A inside B.

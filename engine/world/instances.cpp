@@ -1,4 +1,5 @@
 #include <engine/base/status_exception.hpp>
+#include <engine/geometry/magnitude.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/world/instances.hpp>
 
@@ -137,6 +138,7 @@ void Instances::place(std::uint32_t index) {
     kept.revision = kept.polygon->revision();
     kept.box = placed.box();
     kept.rounding = localize::placement_rounding(placed, kept.box);
+    kept.magnitude = geometry::largest_magnitude(placed, entries_[index].instance.pose, kept.box);
     max_rounding_ = std::max(max_rounding_, kept.rounding);
     boxes_.set(index, kept.box);
 }

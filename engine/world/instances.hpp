@@ -107,6 +107,8 @@ public:
     [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return kept_[index]->box; }
     /// Of its transformed vertices: localize::placement_rounding.
     [[nodiscard]] double rounding(std::uint32_t index) const { return kept_[index]->rounding; }
+    /// geometry::largest_magnitude
+    [[nodiscard]] double magnitude(std::uint32_t index) const { return kept_[index]->magnitude; }
     [[nodiscard]] double deviation(std::uint32_t index) const {
         return kept_[index]->polygon->deviation();
     }
@@ -124,14 +126,19 @@ public:
         return *with_edges(index).tree;
     }
 
-    /// Whether two instances share a point. `a` and `b`: as find() returned them.
-    [[nodiscard]] bool intersect(std::uint32_t a, std::uint32_t b,
-                                 narrowphase::OverlapTest& test) const {
+    // `a` and `b`: as find() returned them.
+
+    /// Whether two instances can share a point, by their boxes.
+    [[nodiscard]] bool boxes_meet(std::uint32_t a, std::uint32_t b) const {
         const Kept& one = *kept_[a];
         const Kept& other = *kept_[b];
         return one.polygon != nullptr && other.polygon != nullptr &&
-               localize::boxes_meet(one.box, other.box, one.rounding + other.rounding) &&
-               test.intersect(edges(a), edges(b));
+               localize::boxes_meet(one.box, other.box, one.rounding + other.rounding);
+    }
+    /// Whether they share a point.
+    [[nodiscard]] bool intersect(std::uint32_t a, std::uint32_t b,
+                                 narrowphase::OverlapTest& test) const {
+        return boxes_meet(a, b) && test.intersect(edges(a), edges(b));
     }
 
     [[nodiscard]] std::size_t bytes() const;
@@ -152,6 +159,7 @@ private:
         std::uint64_t revision = 0;                  // of the polygon
         geometry::Box box;
         double rounding = 0.0;
+        double magnitude = 0.0;
         // Made by the first thread that needs them.
         mutable simd::TransformedInstances edges;
         mutable std::optional<simd::AabbTree> tree;

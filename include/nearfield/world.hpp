@@ -27,6 +27,8 @@ namespace nearfield {
 
 template <class Query>
 class PairTable;
+template <class Query>
+struct PairRow;
 class DevicePairTableBase;
 class DeviceRays;
 class DeviceNearest;
@@ -107,6 +109,14 @@ public:
     /// point. Fails (invalid_query) if the spans differ in length.
     Status test_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
                       std::span<std::uint8_t> intersects, const Limits& limits = {});
+    /// For each pair of instances a[i] and b[i], the answer to a penetration query, whose own `a`,
+    /// `b` and `records` are ignored: the row that a PairTable (world_pairs.hpp) would have, bit
+    /// for bit, without records. The status of a row is unknown_shape if a shape was removed.
+    /// Technique::automatic means Technique::cpu. Of boundary samples, also fails as
+    /// Context::run(). Otherwise as test_pairs().
+    Status find_penetrations(const PenetrationQuery& query, std::span<const InstanceHandle> a,
+                             std::span<const InstanceHandle> b,
+                             std::span<PairRow<PenetrationQuery>> rows, const Limits& limits = {});
 
     /// For each pose, the least distance of the shape there from the world. Neighbouring poses in
     /// sequence are faster than poses in random order. Otherwise as test_poses().

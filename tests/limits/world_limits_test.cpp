@@ -57,6 +57,19 @@ public:
         numbers.assign(hits.begin(), hits.end());
         return status;
     }
+    Status find_penetrations(const Limits& limits, Numbers& numbers) {
+        std::vector<PairRow<PenetrationQuery>> rows(instances_.size() - 1);
+        const std::span<const InstanceHandle> all(instances_);
+        PenetrationQuery query;
+        query.tolerance = 0.02;
+        query.points = PenetrationPoints::vertices;
+        Status status =
+            world_.find_penetrations(query, all.first(rows.size()), all.subspan(1), rows, limits);
+        for (const PairRow<PenetrationQuery>& row : rows) {
+            numbers.insert(numbers.end(), {static_cast<double>(row.count), row.deepest.depth});
+        }
+        return status;
+    }
     Status find_clearances(const Limits& limits, Numbers& numbers) {
         std::vector<Clearance> clearances(poses_.size());
         ClearanceQuery query;
@@ -218,6 +231,7 @@ std::vector<NamedQuery> all_queries() {
     return {
         {"test_poses", &Stars::test_poses},
         {"test_pairs", &Stars::test_pairs},
+        {"find_penetrations", &Stars::find_penetrations},
         {"find_clearances", &Stars::find_clearances},
         {"find_nearest", &Stars::find_nearest},
         {"find_nearest of a shape", &Stars::find_nearest_of_shape},

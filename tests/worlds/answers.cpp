@@ -227,6 +227,20 @@ void Answers::ask_pairs(World& world, std::span<const InstanceHandle> instances)
             add(static_cast<double>(each));
         }
     }
+    std::vector<PairRow<PenetrationQuery>> rows(a.size());
+    PenetrationQuery query;
+    query.tolerance = 0.05;
+    query.points = PenetrationPoints::vertices;
+    if (note(world.find_penetrations(query, a, b, rows), "find_penetrations")) {
+        for (const PairRow<PenetrationQuery>& row : rows) {
+            add(static_cast<double>(row.status));
+            add(row.intersects ? 1.0 : 0.0);
+            add(static_cast<double>(row.count));
+            add(row.deepest.depth);
+            add(row.deepest.point);
+            add(row.deepest.nearest);
+        }
+    }
 }
 
 void Answers::ask_overlaps(World& world, ShapeHandle shape, const Questions& questions) {

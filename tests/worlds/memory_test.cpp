@@ -131,6 +131,15 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
             return c.scene.world().test_pairs(a, b, out);
         },
         [](Changed& c) {
+            const InstanceHandle a[] = {c.scene.handle(0), c.scene.handle(2)};
+            const InstanceHandle b[] = {c.scene.handle(1), c.scene.handle(3)};
+            std::vector<PairRow<PenetrationQuery>> out(2);
+            PenetrationQuery query;
+            query.tolerance = 0.02;
+            query.points = PenetrationPoints::vertices;
+            return c.scene.world().find_penetrations(query, a, b, out);
+        },
+        [](Changed& c) {
             std::vector<Clearance> out(c.questions.poses.size());
             return c.scene.world().find_clearances({c.item}, c.questions.poses, out);
         },
@@ -269,6 +278,7 @@ public:
         }
         intersects_.resize(questions_.poses.size());
         of_pairs_.resize(handles_.size() - 1);
+        rows_.resize(handles_.size() - 1);
         clearances_.resize(questions_.poses.size());
         nearest_.resize(3 * questions_.points.size());
         hits_.resize(questions_.segments.size());
@@ -312,6 +322,15 @@ private:
         ASSERT_TRUE(world.test_poses({item_}, questions_.poses, intersects_).ok());
         const std::span<const InstanceHandle> all(handles_);
         ASSERT_TRUE(world.test_pairs(all.subspan(1), all.first(of_pairs_.size()), of_pairs_).ok());
+        PenetrationQuery penetration;
+        penetration.tolerance = 0.02;
+        for (const PenetrationPoints points :
+             {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
+            penetration.points = points;
+            ASSERT_TRUE(
+                world.find_penetrations(penetration, all.subspan(1), all.first(rows_.size()), rows_)
+                    .ok());
+        }
         ASSERT_TRUE(world.find_clearances({item_}, questions_.poses, clearances_).ok());
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
         ASSERT_TRUE(world.find_nearest({item_, {}, 3}, questions_.poses, nearest_of_item_).ok());
@@ -337,6 +356,7 @@ private:
     std::optional<PairTable<TimeOfImpactQuery>> impacts_;
     std::vector<std::uint8_t> intersects_;
     std::vector<std::uint8_t> of_pairs_;
+    std::vector<PairRow<PenetrationQuery>> rows_;
     std::vector<Clearance> clearances_;
     std::vector<NearestHit> nearest_;
     std::vector<Clearance> nearest_of_item_;

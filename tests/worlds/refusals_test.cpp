@@ -222,6 +222,11 @@ TEST_F(WorldRefusals, OfInstancesThatAreNotThere) {
         std::vector<std::uint8_t> intersects(2);
         expect(world().test_pairs(both, good, intersects), code, "test_pairs");
         expect(world().test_pairs(good, both, intersects), code, "test_pairs");
+        std::vector<PairRow<PenetrationQuery>> rows(2);
+        PenetrationQuery query;
+        query.tolerance = 0.1;
+        expect(world().find_penetrations(query, both, good, rows), code, "find_penetrations");
+        expect(world().find_penetrations(query, good, both, rows), code, "find_penetrations");
     }
 }
 

@@ -1,8 +1,10 @@
 #include <tools/benchmark/milliseconds_of.hpp>
 #include <tools/common/add_shape.hpp>
 #include <tools/common/library_error.hpp>
+#include <tools/io/query_request.hpp>
 #include <tools/peers/nearfield_side.hpp>
 
+#include <stdexcept>
 #include <variant>
 
 namespace nearfield::peers {
@@ -56,29 +58,58 @@ std::vector<const AnyResult*> NearfieldSide::results() const {
     return results;
 }
 
-KeptTests::KeptTests(const Problem& problem, Context& context)
-    : world_(tools::take(World::create(context))), intersects_(problem.scene.queries.size()) {
+KeptPairs::KeptPairs(const Problem& problem, Context& context)
+    : problem_(problem), world_(tools::take(World::create(context))) {
+    const tools::Scene& scene = problem.scene;
     std::vector<ShapeHandle> shapes;
-    for (const tools::SceneShape& shape : problem.scene.shapes) {
+    for (const tools::SceneShape& shape : scene.shapes) {
         shapes.push_back(tools::take(tools::add_shape(context, shape.rings, shape.deviation)));
     }
     std::vector<InstanceHandle> instances;
-    for (const tools::SceneInstance& instance : problem.scene.instances) {
+    for (const tools::SceneInstance& instance : scene.instances) {
         instances.push_back(
             tools::take(world_.add({.shape = shapes[instance.shape], .pose = instance.pose})));
     }
-    for (const tools::SceneQuery& query : problem.scene.queries) {
+    for (const tools::SceneQuery& query : scene.queries) {
         a_.push_back(instances[query.a]);
         b_.push_back(instances[query.b]);
     }
+    if (problem.task == Task::vertex_penetration) {
+        Batch batch;
+        tools::add_query(batch, scene.queries.front().request, {}, {});
+        query_ = std::get<PenetrationQuery>(batch.queries().front());
+        rows_.resize(a_.size());
+    } else {
+        intersects_.resize(a_.size());
+    }
 }
 
-double KeptTests::run_frame() {
+double KeptPairs::run_frame() {
     Status status;
-    const double milliseconds =
-        benchmark::milliseconds_of([&] { status = world_.test_pairs(a_, b_, intersects_); });
+    const double milliseconds = benchmark::milliseconds_of([&] {
+        status = rows_.empty() ? world_.test_pairs(a_, b_, intersects_)
+                               : world_.find_penetrations(query_, a_, b_, rows_);
+    });
     tools::require(status, "bench_peers");
     return milliseconds;
+}
+
+void KeptPairs::require_same(const std::vector<const AnyResult*>& results) const {
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        bool is_same = false;
+        if (const auto* const test = std::get_if<IntersectionTestResult>(results[i])) {
+            is_same = test->intersects == (intersects_[i] != 0);
+        } else if (const auto* const penetration = std::get_if<PenetrationResult>(results[i])) {
+            const PairRow<PenetrationQuery>& row = rows_[i];
+            is_same = row.status == StatusCode::ok && row.intersects == penetration->intersects &&
+                      row.count == penetration->count &&
+                      row.deepest.depth == penetration->deepest.depth;
+        }
+        if (!is_same) {
+            throw std::runtime_error(problem_.name + ": a batch and a world differ in query " +
+                                     std::to_string(i));
+        }
+    }
 }
 
 }  // namespace nearfield::peers

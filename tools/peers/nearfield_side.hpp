@@ -1,13 +1,12 @@
 #pragma once
 
 #include <nearfield/context.hpp>
-#include <nearfield/world.hpp>
+#include <nearfield/world_pairs.hpp>
 
 #include <tools/common/scene_runner.hpp>
 #include <tools/peers/problem.hpp>
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -32,23 +31,31 @@ private:
     tools::SceneRunner runner_;
 };
 
-/// nearfield's intersection tests of shapes that stay where they are: a world and a list of pairs.
-class KeptTests {
+/// nearfield on a list of pairs of shapes that stay where they are: a world.
+class KeptPairs {
 public:
     /// Both must outlive it. Throws if anything is rejected.
-    KeptTests(const Problem& problem, Context& context);
+    KeptPairs(const Problem& problem, Context& context);
+
+    /// Whether a world answers lists of pairs for such a task.
+    [[nodiscard]] static bool answers(Task task) {
+        return task == Task::intersection_test || task == Task::vertex_penetration;
+    }
 
     /// Runs one frame; returns milliseconds.
     double run_frame();
 
-    /// By query: whether the shapes intersect.
-    [[nodiscard]] std::span<const std::uint8_t> answers() const { return intersects_; }
+    /// Throws unless the answers of the last frame are these results.
+    void require_same(const std::vector<const AnyResult*>& results) const;
 
 private:
+    const Problem& problem_;
     World world_;
     std::vector<InstanceHandle> a_;
     std::vector<InstanceHandle> b_;
+    PenetrationQuery query_;  // of every pair
     std::vector<std::uint8_t> intersects_;
+    std::vector<PairRow<PenetrationQuery>> rows_;
 };
 
 }  // namespace nearfield::peers

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -88,17 +87,6 @@ PeerTimes checked(Entry& entry, const NearfieldSide& ours) {
     return times;
 }
 
-void require_same(const std::vector<const AnyResult*>& results, std::span<const std::uint8_t> tests,
-                  const std::string& name) {
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        const bool intersects = std::get<IntersectionTestResult>(*results[i]).intersects;
-        if (intersects != (tests[i] != 0)) {
-            throw std::runtime_error(name + ": a batch and a world differ in query " +
-                                     std::to_string(i));
-        }
-    }
-}
-
 }  // namespace
 
 std::optional<double> ProblemTimes::quickest(benchmark::Spread PeerTimes::*times) const {
@@ -120,18 +108,18 @@ ProblemTimes race(const Problem& problem, Context& context) {
     NearfieldSide kept(problem, context);
     ours.run_frame(tools::FrameInput::all);
     kept.run_frame(tools::FrameInput::all);
-    std::optional<KeptTests> tests;
-    if (problem.task == Task::intersection_test) {
-        tests.emplace(problem, context);
-        tests->run_frame();
-        require_same(ours.results(), tests->answers(), problem.name);
+    std::optional<KeptPairs> pairs;
+    if (KeptPairs::answers(problem.task)) {
+        pairs.emplace(problem, context);
+        pairs->run_frame();
+        pairs->require_same(ours.results());
     }
     times.technique = ours.technique();
     const std::vector<std::unique_ptr<Entry>> entries = entries_of(problem);
     std::vector<benchmark::Contender> contenders;
     contenders.push_back({[&] { return ours.run_frame(tools::FrameInput::all); }, {}});
     contenders.push_back(
-        {[&] { return tests ? tests->run_frame() : kept.run_frame(tools::FrameInput::nothing); },
+        {[&] { return pairs ? pairs->run_frame() : kept.run_frame(tools::FrameInput::nothing); },
          {}});
     for (const std::unique_ptr<Entry>& owner : entries) {
         Entry& entry = *owner;
