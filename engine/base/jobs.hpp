@@ -40,6 +40,12 @@ public:
     /// them. The assignment of parts to jobs depends on nothing else.
     template <class Work>
     void divide(std::size_t count, std::size_t part, const Work& work) {
+        if (count <= part) {
+            if (count > 0) {
+                work(0U, std::size_t{0}, count);
+            }
+            return;
+        }
         const std::size_t parts = (count + part - 1) / part;
         const auto jobs = static_cast<std::uint32_t>(parts < this->count() ? parts : this->count());
         run(jobs, [&](std::uint32_t job) {

@@ -59,17 +59,6 @@ Status World::test_poses(const PoseTestQuery& query, std::span<const Pose> poses
     return catch_within(limits, [&] { implementation_->test_poses(query, poses, intersects); });
 }
 
-Status World::test_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
-                         std::span<std::uint8_t> intersects, const Limits& limits) {
-    return catch_within(limits, [&] { implementation_->test_pairs(a, b, intersects); });
-}
-
-Status World::find_penetrations(const PenetrationQuery& query, std::span<const InstanceHandle> a,
-                                std::span<const InstanceHandle> b,
-                                std::span<PairRow<PenetrationQuery>> rows, const Limits& limits) {
-    return catch_within(limits, [&] { implementation_->find_penetrations(query, a, b, rows); });
-}
-
 Status World::find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
                               std::span<Clearance> clearances, const Limits& limits) {
     return catch_within(limits,

@@ -118,9 +118,11 @@ private:
     template <class Query>
     void merge_rows(PairTable<Query>& table);
 
-    /// Throws unless all instances exist, and there is space for an answer to each pair.
-    void require_pairs(const char* call, std::span<const InstanceHandle> a,
-                       std::span<const InstanceHandle> b, std::size_t answers) const;
+    void test_pairs_of_part(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
+                            std::span<std::uint8_t> intersects, Job& job) const;
+    /// By all jobs.
+    void test_many_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
+                         std::span<std::uint8_t> intersects);
     /// By a batch.
     void find_sampled_penetrations(PenetrationQuery query, std::span<const InstanceHandle> a,
                                    std::span<const InstanceHandle> b,

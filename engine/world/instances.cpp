@@ -39,6 +39,7 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
         if (kept_.size() == entries_.size()) {
             kept_.push_back(std::make_unique<Kept>());
         }
+        bounds_.resize(kept_.size());
         numbers_.resize(kept_.size());
         changed_.resize(kept_.size());
         entries_.emplace_back();
@@ -58,6 +59,7 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
 }
 
 void Instances::note_change(std::uint32_t index) {
+    is_prepared_ = false;
     Entry& entry = entries_[index];
     if (!entry.is_changed) {
         changes_.push_back(index);
@@ -91,6 +93,7 @@ void Instances::remove(std::uint32_t index) {
     ++entry.generation;
     kept_[index]->has_edges = false;
     boxes_.remove(index);
+    is_prepared_ = false;
     --count_;
     ++membership_;
 }
@@ -125,22 +128,26 @@ void Instances::take_in_changes(const FindShape& find_shape, std::uint64_t shape
     }
     changes_.clear();
     boxes_.prepare();
+    is_prepared_ = true;
 }
 
 void Instances::place(std::uint32_t index) {
     Kept& kept = *kept_[index];
+    Bounds& bounds = bounds_[index];
     kept.has_edges = false;
     if (kept.polygon == nullptr) {
+        bounds.box.setEmpty();
         boxes_.remove(index);
         return;
     }
-    const TransformedPolygon placed(*kept.polygon, entries_[index].instance.pose);
+    const Pose& pose = entries_[index].instance.pose;
+    const TransformedPolygon placed(*kept.polygon, pose);
     kept.revision = kept.polygon->revision();
-    kept.box = placed.box();
-    kept.rounding = localize::placement_rounding(placed, kept.box);
-    kept.magnitude = geometry::largest_magnitude(placed, entries_[index].instance.pose, kept.box);
-    max_rounding_ = std::max(max_rounding_, kept.rounding);
-    boxes_.set(index, kept.box);
+    bounds.box = placed.box();
+    bounds.rounding = localize::placement_rounding(placed, bounds.box);
+    bounds.magnitude = geometry::largest_magnitude(placed, pose, bounds.box);
+    max_rounding_ = std::max(max_rounding_, bounds.rounding);
+    boxes_.set(index, bounds.box);
 }
 
 void Instances::make_edges(std::uint32_t index) const {
@@ -160,6 +167,7 @@ void Instances::make_edges(std::uint32_t index) const {
 std::size_t Instances::bytes() const {
     std::size_t bytes = sizeof(Entry) * entries_.capacity() + sizeof(Kept) * kept_.size() +
                         sizeof(kept_.front()) * kept_.capacity() + boxes_.bytes() +
+                        sizeof(Bounds) * bounds_.capacity() +
                         sizeof(std::uint32_t) * (free_.capacity() + changes_.capacity()) +
                         sizeof(std::uint64_t) * (numbers_.capacity() + changed_.capacity());
     for (const std::unique_ptr<Kept>& kept : kept_) {
@@ -170,6 +178,7 @@ std::size_t Instances::bytes() const {
 
 void Instances::trim() {
     boxes_.trim();
+    is_prepared_ = false;
     for (const std::unique_ptr<Kept>& kept : kept_) {
         kept->edges = {};
         kept->has_edges = false;

@@ -74,7 +74,7 @@ public:
     /// Takes in what has changed since the last call. `shapes_revision`: changes whenever any shape
     /// does.
     void prepare(const FindShape& find_shape, std::uint64_t shapes_revision) {
-        if (shapes_revision_ != shapes_revision || !changes_.empty() || boxes_.is_outdated()) {
+        if (shapes_revision_ != shapes_revision || !is_prepared_) {
             take_in_changes(find_shape, shapes_revision);
         }
     }
@@ -104,11 +104,11 @@ public:
     /// Changes with the pose, the shape's rings and the filter: larger than at any earlier time.
     [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return changed_[index]; }
     [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
-    [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return kept_[index]->box; }
+    [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return bounds_[index].box; }
     /// Of its transformed vertices: localize::placement_rounding.
-    [[nodiscard]] double rounding(std::uint32_t index) const { return kept_[index]->rounding; }
+    [[nodiscard]] double rounding(std::uint32_t index) const { return bounds_[index].rounding; }
     /// geometry::largest_magnitude
-    [[nodiscard]] double magnitude(std::uint32_t index) const { return kept_[index]->magnitude; }
+    [[nodiscard]] double magnitude(std::uint32_t index) const { return bounds_[index].magnitude; }
     [[nodiscard]] double deviation(std::uint32_t index) const {
         return kept_[index]->polygon->deviation();
     }
@@ -130,10 +130,9 @@ public:
 
     /// Whether two instances can share a point, by their boxes.
     [[nodiscard]] bool boxes_meet(std::uint32_t a, std::uint32_t b) const {
-        const Kept& one = *kept_[a];
-        const Kept& other = *kept_[b];
-        return one.polygon != nullptr && other.polygon != nullptr &&
-               localize::boxes_meet(one.box, other.box, one.rounding + other.rounding);
+        const Bounds& one = bounds_[a];
+        const Bounds& other = bounds_[b];
+        return localize::boxes_meet(one.box, other.box, one.rounding + other.rounding);
     }
     /// Whether they share a point.
     [[nodiscard]] bool intersect(std::uint32_t a, std::uint32_t b,
@@ -153,13 +152,16 @@ private:
         bool present = false;
         bool is_changed = false;  // listed in changes_
     };
-    // What is kept of an instance.
+    // Where an instance is.
+    struct Bounds {
+        geometry::Box box;  // empty, and so meets none, if its shape was removed
+        double rounding = 0.0;
+        double magnitude = 0.0;
+    };
+    // What is kept of it besides.
     struct Kept {
         const geometry::Polygon* polygon = nullptr;  // null: its shape was removed
         std::uint64_t revision = 0;                  // of the polygon
-        geometry::Box box;
-        double rounding = 0.0;
-        double magnitude = 0.0;
         // Made by the first thread that needs them.
         mutable simd::TransformedInstances edges;
         mutable std::optional<simd::AabbTree> tree;
@@ -183,8 +185,9 @@ private:
     std::uint32_t world_ = next_owner_number();
     std::vector<Entry> entries_;
     std::vector<std::unique_ptr<Kept>> kept_;  // which stay where they are
-    // In one piece each, since tables of pairs look at all of them: the order in which instances
-    // were added, and their last change.
+    std::vector<Bounds> bounds_;               // in one piece, as pairs look at any of them
+    // Likewise, since tables of pairs look at all of them: the order in which instances were added,
+    // and their last change.
     std::vector<std::uint64_t> numbers_;
     std::vector<std::uint64_t> changed_;
     std::vector<std::uint32_t> free_;
@@ -197,6 +200,7 @@ private:
     std::uint64_t all_moves_ = 0;
     std::uint64_t last_change_ = 0;
     std::uint64_t shapes_revision_ = 0;
+    bool is_prepared_ = false;  // no instance, and no box, has changed since prepare()
     double max_rounding_ = 0.0;
     mutable std::mutex making_edges_;
 };

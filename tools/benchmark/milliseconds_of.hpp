@@ -13,4 +13,21 @@ template <class Action>
         .count();
 }
 
+/// The same for an action that may be too short for a clock: it is then repeated.
+template <class Action>
+[[nodiscard]] double milliseconds_of_short(const Action& action) {
+    constexpr double shortest = 1e-3;
+    constexpr int repetitions = 100;
+    const double once = milliseconds_of(action);
+    if (once >= shortest) {
+        return once;
+    }
+    const double together = milliseconds_of([&] {
+        for (int i = 0; i < repetitions; ++i) {
+            action();
+        }
+    });
+    return together / repetitions;
+}
+
 }  // namespace nearfield::benchmark
