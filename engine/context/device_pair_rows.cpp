@@ -233,12 +233,7 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQue
 }
 
 void DevicePairTableBase::State::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
-    const std::uint32_t number = device_row("row", index);
-    const plan::PairRowData data = pair_of(number);
-    if (const AnyResult* const decided = find_decided(number)) {
-        fill(row, data, std::get<IntersectionTestResult>(*decided));
-        return;
-    }
+    const plan::PairRowData data = pair_of(device_row("row", index));
     IntersectionTestResult result;
     result.intersects = true;
     for (const std::uint32_t instance : {data.a, data.b}) {

@@ -65,7 +65,8 @@ struct DevicePairTableBase::State {
 private:
     /// A pose of the host's is taken when it is needed (pair_of()).
     using PairInstance = DeviceInstances::Entry;
-    /// A row that the CPU decided. Its answer is the result with the same index.
+    /// A row that the CPU decided. Its answer, unless it is that of an intersection test, is the
+    /// result with the same index.
     struct Decided {
         std::uint32_t row = 0;   // of the device
         bool has_row = false;    // in the table
@@ -107,6 +108,8 @@ private:
     void order_instances(const world::Instances& instances);
     [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
     [[nodiscard]] bool is_hit(const AnyResult& answer, const plan::PairRowData& data) const;
+    [[nodiscard]] bool do_share_a_point(const plan::PairRowData& pair);
+    void answer_undecided();
     void decide();
     /// The device's row of a row of the table. `call`: for the message.
     [[nodiscard]] std::uint32_t device_row(const char* call, std::uint32_t index) const;

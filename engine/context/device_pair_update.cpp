@@ -109,28 +109,53 @@ bool DevicePairTableBase::State::is_hit(const AnyResult& answer,
     return has_answer && boxes_meet(data);
 }
 
+/// Whether the instances of a pair share a point, for a table of intersection tests.
+bool DevicePairTableBase::State::do_share_a_point(const plan::PairRowData& pair) {
+    const auto place = [this](std::uint32_t number) {
+        const Instance& instance = instances_[number].instance;
+        return edges_.place(*polygon_of(instance.shape), instance.pose);
+    };
+    edges_.clear();
+    return intersection_test_.intersect({place(pair.a), place(pair.b)}, edges_);
+}
+
+/// Answers the undecided rows.
+void DevicePairTableBase::State::answer_undecided() {
+    // Much of what a batch does would be brought into the caches for one test alone.
+    if (std::holds_alternative<IntersectionTestQuery>(query_)) {
+        for (Decided& one : decided_) {
+            checkpoint();
+            one.has_row = do_share_a_point(one.pair) && boxes_meet(one.pair);
+        }
+        return;
+    }
+    cpu_queries_.clear();
+    for (const Decided& one : decided_) {
+        cpu_queries_.emplace_back(query_on_cpu(one.pair, false));
+    }
+    context_->ring().answer(
+        cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, decided_results_);
+    checkpoint();  // what was cut must not look whole
+    for (std::size_t i = 0; i < decided_.size(); ++i) {
+        decided_[i].has_row = is_hit(decided_results_.results[i], decided_[i].pair);
+    }
+}
+
 /// Answers what single precision could not decide, and drops the rows without points.
 void DevicePairTableBase::State::decide() {
     if (buffers_->undecided().empty()) {
         return;
     }
     const Stopwatch start;
-    const std::span<const std::uint32_t> undecided = buffers_->undecided();
-    cpu_queries_.clear();
-    for (const std::uint32_t i : undecided) {
+    for (const std::uint32_t i : buffers_->undecided()) {
         // Where the row lies in memory of the device, each read of it takes long.
         const plan::PairRowData& row = buffers_->rows()[i];
         const plan::PairRowData pair{.a = row.a, .b = row.b};
         take_poses(pair);
         decided_.push_back({i, false, pair});
-        cpu_queries_.emplace_back(query_on_cpu(pair, false));
     }
-    context_->ring().answer(
-        cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, decided_results_);
-    checkpoint();  // what was cut must not look whole
-    for (std::size_t i = 0; i < decided_.size(); ++i) {
-        Decided& one = decided_[i];
-        one.has_row = is_hit(decided_results_.results[i], one.pair);
+    answer_undecided();
+    for (const Decided& one : decided_) {
         if (!one.has_row) {
             dropped_rows_.push_back(one.row);
         }

@@ -4,7 +4,11 @@ namespace nearfield::cpu {
 
 bool IntersectionTest::intersect(const plan::PlannedQuery& query,
                                  simd::TransformedInstances& instances) {
-    const InstancePairIndex pair = place_pair(query, instances);
+    return intersect(place_pair(query, instances), instances);
+}
+
+bool IntersectionTest::intersect(const InstancePairIndex& pair,
+                                 simd::TransformedInstances& instances) {
     complete_if_near(pair, instances);
     return overlap_test_.intersect(instances[pair.a], instances[pair.b]);
 }

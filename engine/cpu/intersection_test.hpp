@@ -12,6 +12,9 @@ public:
     /// Whether the shapes of any query share a point.
     [[nodiscard]] bool intersect(const plan::PlannedQuery& query,
                                  simd::TransformedInstances& instances);
+    /// The same for instances in their places.
+    [[nodiscard]] bool intersect(const InstancePairIndex& pair,
+                                 simd::TransformedInstances& instances);
     /// Writes a result whose status is good.
     void answer(const plan::PlannedQuery& query, simd::TransformedInstances& instances,
                 IntersectionTestResult& result);
