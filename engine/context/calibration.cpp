@@ -1,251 +1,331 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/context/calibration.hpp>
-#include <engine/geometry/polygon.hpp>
+#include <engine/context/calibration_workloads.hpp>
 #include <engine/select/fit_cost.hpp>
 #include <engine/select/work.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
+#include <utility>
 #include <vector>
 
 namespace nearfield {
 namespace {
+
+using calibration::kinds;
+using calibration::Star;
 
 // A workload runs until it has taken this long or run this often; its median counts.
 constexpr double longest_milliseconds = 60.0;
 constexpr std::size_t max_frames = 15;
 constexpr std::size_t fewest_frames = 3;
 
+// Of frames before a device is measured: GPUs raise their clock within this time.
+constexpr double warm_up_milliseconds = 500.0;
+
 // Queries of the batch that separates the cost of a query from that of a submission.
 constexpr std::size_t many_queries = 64;
 
-/// A star of five rounded arms, about one in radius.
-std::vector<Vector2> star(std::uint32_t vertices) {
-    std::vector<Vector2> ring;
-    for (std::uint32_t i = 0; i < vertices; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / vertices;
-        const double radius = 1.0 + 0.3 * std::cos(5.0 * angle);
-        ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-    return ring;
+/// The microseconds of a batch by one technique.
+struct BatchTimes {
+    double plan = 0.0;    ///< of the calling thread, up to and with the submission
+    double device = 0.0;  ///< from then on until the calling thread saw its end
+    double read = 0.0;    ///< of the calling thread; its answers, by Technique::cpu
+    double total = 0.0;
+};
+
+constexpr std::array<double BatchTimes::*, 4> parts_of_times{&BatchTimes::plan, &BatchTimes::device,
+                                                             &BatchTimes::read, &BatchTimes::total};
+
+BatchTimes times_of(const Timings& timings) {
+    constexpr double microseconds = 1000.0;
+    return {
+        .plan = microseconds * std::max(0.0, timings.total - timings.device - timings.decode),
+        .device = microseconds * timings.device,
+        .read = microseconds * timings.decode,
+        .total = microseconds * timings.total,
+    };
 }
 
-constexpr std::uint32_t few_edges = 16;
-constexpr std::uint32_t many_edges = 4096;
+void add(Batch& batch, Technique technique, AnyQuery query, std::size_t count = 1) {
+    std::visit(
+        [&](auto& asked) {
+            asked.technique = technique;
+            for (std::size_t i = 0; i < count; ++i) {
+                batch.add(asked);
+            }
+        },
+        query);
+}
 
-/// A shape in the context, and a copy for estimates.
-struct Star {
-    explicit Star(std::uint32_t vertices) : ring(star(vertices)) {
-        const Ring rings[] = {Ring(ring)};
-        const Status status = polygon.assign(rings);
-        if (!status.ok()) {
-            throw StatusException(status);
+Batch batch_of(Technique technique, const AnyQuery& query, std::size_t count = 1) {
+    Batch batch;
+    add(batch, technique, query, count);
+    return batch;
+}
+
+void require(const Status& status) {
+    if (!status.ok()) {
+        throw StatusException(status);
+    }
+}
+
+double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+BatchTimes medians_of(const std::vector<BatchTimes>& frames) {
+    BatchTimes medians;
+    for (double BatchTimes::*const part : parts_of_times) {
+        std::vector<double> times;
+        for (const BatchTimes& frame : frames) {
+            times.push_back(frame.*part);
         }
+        medians.*part = median_of(std::move(times));
     }
+    return medians;
+}
 
-    std::vector<Vector2> ring;
-    geometry::Polygon polygon;
-    ShapeHandle handle;
+/// The times of a kind of query by one technique.
+struct KindTimes {
+    BatchTimes one;            ///< query, hardly any work
+    BatchTimes many;           ///< such queries
+    BatchTimes edges;          ///< one query of mostly edges
+    BatchTimes samples;        ///< one query of mostly samples
+    BatchTimes searches = {};  ///< one query of mostly searches, if there are any
+
+    /// Of each further query of a batch.
+    [[nodiscard]] double query(double BatchTimes::*part) const {
+        return std::max(0.0, many.*part - one.*part) / static_cast<double>(many_queries - 1);
+    }
+    /// Of a batch of one query beside the query.
+    [[nodiscard]] double once(double BatchTimes::*part) const {
+        return std::max(0.0, one.*part - query(part));
+    }
 };
 
-/// A kind of work: a query at a tolerance, and the tolerances that yield few and many samples.
-struct Kind {
-    WorkCost TechniqueCost::*cost;
-    double coarse;
-    double fine;
-    AnyQuery (*query)(ShapeHandle shape, double tolerance);
-};
+using AllTimes = std::array<KindTimes, kinds.size()>;
 
-// Deeply overlapping, and separated; both rotated.
-const Pose overlapping{{0.7, 0.2}, 0.4};
-const Pose apart{{3.0, 0.5}, 0.4};
-const Rectangle window{{-1.0, -1.0}, {1.0, 1.0}};
-
-template <class Query>
-Query pair(ShapeHandle shape, const Pose& pose, double tolerance) {
-    Query query;
-    query.a = {shape, {}};
-    query.b = {shape, pose};
-    query.tolerance = tolerance;
-    return query;
+/// What a batch takes once: kinds differ in their passes, so it is the median of all kinds.
+double once(const AllTimes& times, double BatchTimes::*part) {
+    std::vector<double> all;
+    for (const KindTimes& kind : times) {
+        all.push_back(kind.once(part));
+    }
+    return median_of(std::move(all));
 }
-
-AnyQuery points(ShapeHandle shape, double tolerance) {
-    auto query = pair<PenetrationQuery>(shape, overlapping, tolerance);
-    query.records = false;
-    return query;
-}
-
-AnyQuery closest(ShapeHandle shape, double tolerance) {
-    return pair<SeparationQuery>(shape, apart, tolerance);
-}
-
-AnyQuery intersection(ShapeHandle shape, double tolerance) {
-    auto query = pair<IntersectionQuery>(shape, overlapping, tolerance);
-    query.records = false;
-    return query;
-}
-
-AnyQuery field(ShapeHandle shape, double tolerance) {
-    auto query = pair<DistanceFieldQuery>(shape, {}, tolerance);
-    query.rectangle = window;
-    return query;
-}
-
-AnyQuery features(ShapeHandle shape, double tolerance) {
-    auto query = pair<DistanceFieldQuery>(shape, {}, tolerance);
-    query.rectangle = window;
-    query.features = true;
-    return query;
-}
-
-constexpr std::array<Kind, 5> kinds{{
-    {&TechniqueCost::points, 0.2, 0.001, points},
-    {&TechniqueCost::closest, 0.2, 0.2, closest},
-    {&TechniqueCost::intersection, 0.2, 0.004, intersection},
-    {&TechniqueCost::field, 0.2, 0.01, field},
-    {&TechniqueCost::features, 0.2, 0.015, features},
-}};
 
 /// Runs workloads in a context.
 class Calibration {
 public:
     Calibration(Context& context, const std::function<void(double)>& progress)
-        : context_(&context), progress_(&progress), few_(few_edges), many_(many_edges) {
-        for (Star* star : {&few_, &many_}) {
-            const Ring rings[] = {Ring(star->ring)};
-            Expected<ShapeHandle> handle = context.add_shape(rings);
-            if (!handle) {
-                throw StatusException(handle.error());
-            }
-            star->handle = *handle;
+        : context_(&context),
+          progress_(&progress),
+          stars_(many_queries + 1, Star(calibration::few_edges)),
+          few_(stars_.front()),
+          many_(stars_.back()) {
+        many_ = Star(calibration::many_edges);
+        for (Star& star : stars_) {
+            const Ring rings[] = {Ring(star.ring)};
+            const Expected<ShapeHandle> handle = context.add_shape(rings);
+            require(handle ? Status() : handle.error());
+            star.handle = *handle;
         }
     }
     ~Calibration() {
-        static_cast<void>(context_->remove_shape(few_.handle));
-        static_cast<void>(context_->remove_shape(many_.handle));
+        for (const Star& star : stars_) {
+            static_cast<void>(context_->remove_shape(star.handle));
+        }
     }
     Calibration(const Calibration&) = delete;
     Calibration& operator=(const Calibration&) = delete;
 
-    CostModel run(const DeviceTechniques& techniques) {
+    CostModel measure(const DeviceTechniques& techniques) {
         CostModel costs = context_->costs();
+        const bool has_device = techniques.raster || techniques.compute;
         count_ =
-            kinds.size() * (1U + (techniques.raster ? 1U : 0U) + (techniques.compute ? 1U : 0U));
+            kinds.size() * (1U + (techniques.raster ? 1U : 0U) + (techniques.compute ? 1U : 0U)) +
+            (has_device ? 1U : 0U);
         if (techniques.raster) {
-            costs.raster = measure(Technique::raster);
+            costs.raster = measure_device(Technique::raster);
         }
         if (techniques.compute) {
-            costs.compute = measure(Technique::compute);
+            costs.compute = measure_device(Technique::compute);
         }
-        costs.cpu = measure(Technique::cpu);
+        const AllTimes by_cpu = measure(Technique::cpu);
+        costs.cpu = {fit(by_cpu, &BatchTimes::plan), fit(by_cpu, &BatchTimes::read)};
+        if (has_device) {
+            costs.overlap =
+                measure_overlap(techniques.compute ? Technique::compute : Technique::raster);
+        }
         return costs;
     }
 
 private:
-    struct KindTimes {
-        double submission = 0.0;
-        double query = 0.0;
-        double edges = 0.0;
-        double samples = 0.0;
-    };
-
-    TechniqueCost measure(Technique technique);
-    KindTimes measure(Technique technique, const Kind& kind);
-    double median_microseconds(Technique technique, AnyQuery query, std::size_t count);
+    void run(const Batch& batch);
+    void warm_up(Technique technique);
+    template <std::size_t count>
+    std::array<BatchTimes, count> median_times(const std::array<Batch, count>& batches);
+    BatchTimes median_times(const Batch& batch) { return median_times<1>({batch})[0]; }
+    void make_progress();
+    [[nodiscard]] Batch all_small(Technique technique, const calibration::Kind& kind) const;
+    AllTimes measure(Technique technique);
+    DeviceCosts measure_device(Technique technique);
+    double measure_overlap(Technique technique);
+    [[nodiscard]] QueryCosts fit(const AllTimes& times, double BatchTimes::*part) const;
 
     Context* context_;
     const std::function<void(double)>* progress_;
-    Star few_;
-    Star many_;
-    Batch batch_;
+    std::vector<Star> stars_;  // the last one has many edges
+    Star& few_;
+    Star& many_;
     Results results_;
     std::size_t count_ = 0;  // of workloads to measure
     std::size_t measured_ = 0;
 };
 
-double Calibration::median_microseconds(Technique technique, AnyQuery query, std::size_t count) {
-    batch_.clear();
-    std::visit(
-        [&](auto& asked) {
-            asked.technique = technique;
-            for (std::size_t i = 0; i < count; ++i) {
-                batch_.add(asked);
-            }
-        },
-        query);
-    std::vector<double> times;
-    const Stopwatch start;
-    // The first frame warms up.
-    for (std::size_t frame = 0; frame <= max_frames; ++frame) {
-        const Status status = context_->run(batch_, results_);
-        if (!status.ok()) {
-            throw StatusException(status);
-        }
-        if (frame > 0) {
-            times.push_back(results_.timings.total);
-        }
-        if (times.size() >= fewest_frames && start.milliseconds() > longest_milliseconds) {
-            break;
-        }
+/// Runs a batch whose shapes have changed since the last one: nothing is kept from then.
+void Calibration::run(const Batch& batch) {
+    for (const Star& star : stars_) {
+        const Ring rings[] = {Ring(star.ring)};
+        require(context_->update_shape(star.handle, rings));
     }
-    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    return *middle * 1000.0;
+    require(context_->run(batch, results_));
 }
 
-Calibration::KindTimes Calibration::measure(Technique technique, const Kind& kind) {
-    const double one = median_microseconds(technique, kind.query(few_.handle, kind.coarse), 1);
-    const double many =
-        median_microseconds(technique, kind.query(few_.handle, kind.coarse), many_queries);
-    KindTimes times;
-    times.query = std::max(0.0, many - one) / static_cast<double>(many_queries - 1);
-    times.submission = std::max(0.0, one - times.query);
-    times.edges = median_microseconds(technique, kind.query(many_.handle, kind.coarse), 1);
-    times.samples = median_microseconds(technique, kind.query(few_.handle, kind.fine), 1);
+/// Runs queries of all kinds until the device has raised its clock.
+void Calibration::warm_up(Technique technique) {
+    Batch batch;
+    for (const calibration::Kind& kind : kinds) {
+        add(batch, technique, kind.query(many_.handle, kind.middle));
+    }
+    const Stopwatch start;
+    while (start.milliseconds() < warm_up_milliseconds) {
+        run(batch);
+    }
+}
+
+/// Of each batch; they run in turns.
+template <std::size_t count>
+std::array<BatchTimes, count> Calibration::median_times(const std::array<Batch, count>& batches) {
+    std::array<std::vector<BatchTimes>, count> frames;
+    const Stopwatch start;
+    // The first frames warm up.
+    for (const Batch& batch : batches) {
+        run(batch);
+    }
+    while (frames[0].size() < max_frames &&
+           (frames[0].size() < fewest_frames ||
+            start.milliseconds() < static_cast<double>(count) * longest_milliseconds)) {
+        for (std::size_t i = 0; i < count; ++i) {
+            run(batches[i]);
+            frames[i].push_back(times_of(results_.timings));
+        }
+    }
+    std::array<BatchTimes, count> medians;
+    std::transform(frames.begin(), frames.end(), medians.begin(), medians_of);
+    return medians;
+}
+
+void Calibration::make_progress() {
     ++measured_;
     if (*progress_) {
         (*progress_)(static_cast<double>(measured_) / static_cast<double>(count_));
     }
+}
+
+/// As many queries of hardly any work, each of a shape of its own.
+Batch Calibration::all_small(Technique technique, const calibration::Kind& kind) const {
+    Batch batch;
+    for (std::size_t i = 0; i < many_queries; ++i) {
+        add(batch, technique, kind.query(stars_[i].handle, kind.coarse));
+    }
+    return batch;
+}
+
+AllTimes Calibration::measure(Technique technique) {
+    AllTimes times;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        const calibration::Kind& kind = kinds[i];
+        const AnyQuery least = kind.query(few_.handle, kind.coarse);
+        times[i] = {
+            .one = median_times(batch_of(technique, least)),
+            .many = median_times(all_small(technique, kind)),
+            .edges = median_times(batch_of(technique, kind.query(many_.handle, kind.middle))),
+            .samples = median_times(batch_of(technique, kind.query(few_.handle, kind.fine))),
+        };
+        if (kind.searches) {
+            times[i].searches =
+                median_times(batch_of(technique, kind.query(many_.handle, kind.fine)));
+        }
+        make_progress();
+    }
     return times;
 }
 
-TechniqueCost Calibration::measure(Technique technique) {
-    std::array<KindTimes, kinds.size()> times;
-    std::array<double, kinds.size()> submissions{};
+/// Of one part of the times: what a batch takes once is taken off.
+QueryCosts Calibration::fit(const AllTimes& times, double BatchTimes::*part) const {
+    QueryCosts costs;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
-        times[i] = measure(technique, kinds[i]);
-        submissions[i] = times[i].submission;
-    }
-    // Kinds differ in their passes, and this is a difference of two noisy times.
-    std::sort(submissions.begin(), submissions.end());
-    const double submission = submissions[kinds.size() / 2];
-    TechniqueCost cost;
-    cost.submission = submission;
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-        const Kind& kind = kinds[i];
+        const calibration::Kind& kind = kinds[i];
         const auto work = [&](const Star& star, double tolerance, double time) {
             const select::Work estimate =
                 select::work_of(kind.query(star.handle, tolerance), &star.polygon, star.polygon);
-            return select::MeasuredWork{estimate.edges, estimate.samples, time};
+            return select::MeasuredWork{estimate.edges, estimate.samples, estimate.searches, time};
         };
-        const auto alone = [&](double time) { return std::max(0.0, time - submission); };
-        cost.*kind.cost = select::fit_cost(work(few_, kind.coarse, times[i].query),
-                                           work(many_, kind.coarse, alone(times[i].edges)),
-                                           work(few_, kind.fine, alone(times[i].samples)));
+        const auto alone = [&](const BatchTimes& batch) {
+            return std::max(0.0, batch.*part - times[i].once(part));
+        };
+        costs.*kind.cost = select::fit_cost({
+            .least = work(few_, kind.coarse, times[i].query(part)),
+            .edges = work(many_, kind.middle, alone(times[i].edges)),
+            .samples = work(few_, kind.fine, alone(times[i].samples)),
+            .searches = work(many_, kind.fine, alone(times[i].searches)),
+        });
     }
-    return cost;
+    return costs;
+}
+
+DeviceCosts Calibration::measure_device(Technique technique) {
+    warm_up(technique);
+    const AllTimes times = measure(technique);
+    return {
+        .submission = once(times, &BatchTimes::plan) + once(times, &BatchTimes::read),
+        .latency = once(times, &BatchTimes::device),
+        .plan = fit(times, &BatchTimes::plan),
+        .device = fit(times, &BatchTimes::device),
+        .read = fit(times, &BatchTimes::read),
+    };
+}
+
+/// The part of the lesser work that the other one hides, where the CPU has about as much to do as
+/// the device.
+double Calibration::measure_overlap(Technique technique) {
+    const Batch on_device =
+        batch_of(technique, calibration::field(many_.handle, calibration::large_field));
+    const AnyQuery small = calibration::field(few_.handle, calibration::small_field);
+    const double one =
+        median_times(batch_of(Technique::cpu, small, many_queries)).total / many_queries;
+    const double as_many = median_times(on_device).device / one;
+    const Batch on_cpu =
+        batch_of(Technique::cpu, small, static_cast<std::size_t>(std::clamp(as_many, 1.0, 4096.0)));
+    Batch on_both = on_cpu;
+    add(on_both, technique, calibration::field(many_.handle, calibration::large_field));
+    const auto [device, cpu, both] = median_times<3>({on_device, on_cpu, on_both});
+    make_progress();
+    return std::clamp((device.total + cpu.total - both.total) / std::min(device.device, cpu.total),
+                      0.0, 1.0);
 }
 
 }  // namespace
 
 CostModel calibrate(Context& context, const DeviceTechniques& techniques,
                     const std::function<void(double)>& progress) {
-    return Calibration(context, progress).run(techniques);
+    return Calibration(context, progress).measure(techniques);
 }
 
 }  // namespace nearfield

@@ -25,15 +25,34 @@ void check_cost(const WorkCost& cost, const std::string& what) {
     check_cost(cost.query, what + ".query");
     check_cost(cost.edge, what + ".edge");
     check_cost(cost.sample, what + ".sample");
+    check_cost(cost.search, what + ".search");
 }
 
-void check_cost(const TechniqueCost& cost, const std::string& technique) {
-    check_cost(cost.submission, technique + ".submission");
-    check_cost(cost.points, technique + ".points");
-    check_cost(cost.closest, technique + ".closest");
-    check_cost(cost.intersection, technique + ".intersection");
-    check_cost(cost.field, technique + ".field");
-    check_cost(cost.features, technique + ".features");
+void check_costs(const QueryCosts& costs, const std::string& what) {
+    check_cost(costs.points, what + ".points");
+    check_cost(costs.closest, what + ".closest");
+    check_cost(costs.intersection, what + ".intersection");
+    check_cost(costs.field, what + ".field");
+    check_cost(costs.features, what + ".features");
+}
+
+void check_costs(const DeviceCosts& costs, const std::string& technique) {
+    check_cost(costs.submission, technique + ".submission");
+    check_cost(costs.latency, technique + ".latency");
+    check_costs(costs.plan, technique + ".plan");
+    check_costs(costs.device, technique + ".device");
+    check_costs(costs.read, technique + ".read");
+}
+
+void check_costs(const CostModel& costs) {
+    check_costs(costs.raster, "raster");
+    check_costs(costs.compute, "compute");
+    check_costs(costs.cpu.plan, "cpu.plan");
+    check_costs(costs.cpu.answer, "cpu.answer");
+    if (!(costs.overlap >= 0.0 && costs.overlap <= 1.0)) {
+        refuse_setting("Settings::costs.overlap is " + geometry::number(costs.overlap) +
+                       "; it must be at least 0 and at most 1");
+    }
 }
 
 void check_jobs(const JobSystem& jobs) {
@@ -120,9 +139,7 @@ Settings read_versioned(const Settings& given) {
                        std::to_string(static_cast<int>(settings.bounding_volume)));
     }
     if (settings.costs) {
-        check_cost(settings.costs->raster, "raster");
-        check_cost(settings.costs->compute, "compute");
-        check_cost(settings.costs->cpu, "cpu");
+        check_costs(*settings.costs);
     }
     check_jobs(settings.jobs);
     return settings;

@@ -4,21 +4,24 @@
 
 namespace nearfield::select {
 
-WorkCost fit_cost(const MeasuredWork& least, const MeasuredWork& edges,
-                  const MeasuredWork& samples) {
-    // Gauss-Seidel: each measurement is dominated by one of the three numbers, so this converges,
-    // and it clamps to 0 any number that noise would make negative.
-    constexpr int iterations = 50;
+WorkCost fit_cost(const Measurements& measured) {
+    // Gauss-Seidel: each measurement is dominated by one of the numbers, so this converges, and it
+    // clamps to 0 any number that noise would make negative.
+    constexpr int iterations = 100;
     WorkCost cost;
-    for (int i = 0; i < iterations; ++i) {
-        cost.query =
-            std::max(0.0, least.time - cost.edge * least.edges - cost.sample * least.samples);
-        cost.edge =
-            std::max(0.0, edges.time - cost.query - cost.sample * edges.samples) / edges.edges;
-        if (samples.samples > 0.0) {
-            cost.sample = std::max(0.0, samples.time - cost.query - cost.edge * samples.edges) /
-                          samples.samples;
+    const auto fit = [&](double WorkCost::*part, const MeasuredWork& by, double amount) {
+        if (amount > 0.0) {
+            cost.*part = 0.0;
+            const double others = cost.query + cost.edge * by.edges + cost.sample * by.samples +
+                                  cost.search * by.searches;
+            cost.*part = std::max(0.0, by.time - others) / amount;
         }
+    };
+    for (int i = 0; i < iterations; ++i) {
+        fit(&WorkCost::query, measured.least, 1.0);
+        fit(&WorkCost::edge, measured.edges, measured.edges.edges);
+        fit(&WorkCost::sample, measured.samples, measured.samples.samples);
+        fit(&WorkCost::search, measured.searches, measured.searches.searches);
     }
     return cost;
 }

@@ -2,8 +2,6 @@
 
 #include <nearfield/cost.hpp>
 
-#include <array>
-
 namespace nearfield::select {
 
 /// The work of one query of a workload and its measured time by one technique, in microseconds,
@@ -11,12 +9,20 @@ namespace nearfield::select {
 struct MeasuredWork {
     double edges = 0.0;
     double samples = 0.0;
+    double searches = 0.0;
     double time = 0.0;
 };
 
-/// Fits non-negative costs to three measurements: of hardly any work, of mostly edges and of mostly
-/// samples. For a kind of work without samples, all three have none.
-[[nodiscard]] WorkCost fit_cost(const MeasuredWork& least, const MeasuredWork& edges,
-                                const MeasuredWork& samples);
+/// Of hardly any work, and of mostly edges, samples and searches. Of a kind of work without samples
+/// or searches, the measurement of these is not used, and the others have none.
+struct Measurements {
+    MeasuredWork least;
+    MeasuredWork edges;
+    MeasuredWork samples;
+    MeasuredWork searches;
+};
+
+/// Fits non-negative costs to measurements.
+[[nodiscard]] WorkCost fit_cost(const Measurements& measured);
 
 }  // namespace nearfield::select

@@ -3,8 +3,10 @@
 #include <engine/select/work.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace nearfield::select {
@@ -102,6 +104,53 @@ double edges_in(const TransformedPolygon& placed, const Box& box) {
     return std::min<double>(near + far_edge * polygon.size(), polygon.size());
 }
 
+// Cells beside each other search together, in blocks of so many by so many.
+constexpr double cells_together = 16.0;
+// At most so many places by so many, which is enough for a mean.
+constexpr double most_places = 5.0;
+
+/// How many places along a side of a field tell what its cells have around them.
+int places_along(double side, double cell) {
+    const double blocks = side / (cells_together * cell);
+    return static_cast<int>(blocks > 1.0 ? std::min(blocks, most_places) : 1.0);
+}
+
+/// The mean number of edges that are about as near to a place in the box as the nearest, of a shape
+/// that is known by some of its vertices.
+double edges_near(const TransformedPolygon& placed, const Box& box, double cell) {
+    const Polygon& polygon = placed.polygon();
+    std::array<geometry::Vector, looked_at> vertices;
+    const std::uint32_t stride = stride_of(polygon);
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < polygon.size(); i += stride) {
+        vertices[count++] = placed.vertex(i);
+    }
+    if (count == 0 || box.isEmpty()) {
+        return 1.0;
+    }
+    const geometry::Vector sides = box.sizes();
+    const int columns = places_along(sides.x(), cell);
+    const int rows = places_along(sides.y(), cell);
+    const double reach = cells_together * std::numbers::sqrt2 * cell;
+    std::uint32_t near = 0;
+    for (int place = 0; place < columns * rows; ++place) {
+        const geometry::Vector at =
+            box.min() + geometry::Vector(sides.x() * (place % columns + 0.5) / columns,
+                                         sides.y() * (place / columns + 0.5) / rows);
+        std::array<double, looked_at> squares;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            squares[i] = (vertices[i] - at).squaredNorm();
+            least = std::min(least, squares[i]);
+        }
+        const double distance = std::sqrt(least) + reach;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            near += squares[i] <= distance * distance ? 1U : 0U;
+        }
+    }
+    return static_cast<double>(near) * stride / (columns * rows);
+}
+
 /// Upper bound on boundary_samples().
 double max_boundary_samples(const Polygon& polygon, double cell) {
     return polygon.size() + polygon.length_along_axes() / cell;
@@ -120,20 +169,20 @@ struct Bounds {
         return static_cast<double>(b.size()) +
                (a == nullptr ? 0.0 : static_cast<double>(a->size()));
     }
-    [[nodiscard]] WorkBounds of(WorkCost TechniqueCost::*kind, double least, double most) const {
+    [[nodiscard]] WorkBounds of(WorkCost QueryCosts::*kind, double least, double most) const {
         return {{kind, edges(), least}, {kind, edges(), most}};
     }
 
     WorkBounds operator()(const PenetrationQuery& query) const {
         if (query.points == PenetrationPoints::vertices) {
-            return of(&TechniqueCost::points, a->size(), a->size());
+            return of(&QueryCosts::points, a->size(), a->size());
         }
-        return of(&TechniqueCost::points, 0.0, max_boundary_samples(*a, cell_of(query.tolerance)));
+        return of(&QueryCosts::points, 0.0, max_boundary_samples(*a, cell_of(query.tolerance)));
     }
 
     WorkBounds operator()(const ContactQuery& query) const {
         const double cell = cell_of(query.tolerance);
-        return of(&TechniqueCost::points, 0.0,
+        return of(&QueryCosts::points, 0.0,
                   max_boundary_samples(*a, cell) + max_boundary_samples(b, cell));
     }
 
@@ -141,7 +190,7 @@ struct Bounds {
         const double most =
             max_common_cells(TransformedPolygon(*a, query.a.pose),
                              TransformedPolygon(b, query.b.pose), 0.0, cell_of(query.tolerance));
-        WorkBounds bounds = of(&TechniqueCost::intersection, 0.0, most);
+        WorkBounds bounds = of(&QueryCosts::intersection, 0.0, most);
         bounds.least.edges *= far_edge;
         return bounds;
     }
@@ -162,15 +211,20 @@ struct Bounds {
                                     TransformedPolygon(b, query.b.pose), query.tolerance, cell);
         }
         // Only A's box is used.
-        const Work work{parts.features ? &TechniqueCost::features : &TechniqueCost::field,
-                        static_cast<double>(b.size()), least};
-        return {work, {work.kind, work.edges, most}};
+        Work work{parts.features ? &QueryCosts::features : &QueryCosts::field,
+                  static_cast<double>(b.size()), least};
+        work.is_read = parts.host_values || parts.host_features || !query.points.empty();
+        WorkBounds bounds{work, work};
+        bounds.most.samples = most;
+        bounds.least.searches = least;  // one edge is the nearest
+        bounds.most.searches = most * std::log2(1.0 + work.edges);
+        return bounds;
     }
 
     /// Closest points, separations, tests, and queries that only one technique answers.
     template <class Query>
     WorkBounds operator()(const Query& /*query*/) const {
-        return of(&TechniqueCost::closest, 0.0, 0.0);
+        return of(&QueryCosts::closest, 0.0, 0.0);
     }
 };
 
@@ -207,9 +261,19 @@ struct Estimate {
     }
 
     Work operator()(const DistanceFieldQuery& query) {
-        const Box box = common_box(TransformedPolygon(*a, query.a.pose),
-                                   TransformedPolygon(b, query.b.pose), query.tolerance);
-        return with_samples(cells_of(box, cell_of(query.tolerance)));
+        const TransformedPolygon transformed_b(b, query.b.pose);
+        const double cell = cell_of(query.tolerance);
+        Box box;
+        if (query.rectangle) {
+            box = Box(geometry::to_vector(query.rectangle->min),
+                      geometry::to_vector(query.rectangle->max));
+        } else if (a != nullptr) {
+            box = common_box(TransformedPolygon(*a, query.a.pose), transformed_b, query.tolerance);
+            work = with_samples(cells_of(box, cell));
+        }
+        const double search = std::log2(1.0 + edges_near(transformed_b, box, cell));
+        work.searches = std::min(work.searches, work.samples * search);
+        return work;
     }
 
     template <class Query>
@@ -226,13 +290,17 @@ private:
 
 }  // namespace
 
-double WorkBounds::max_saved(const TechniqueCost& cpu, const TechniqueCost& device) const {
-    Work by_cpu = most;
-    Work by_device = least;
-    // Whatever their number, edges are the same for both.
-    const bool edges_save = (cpu.*most.kind).edge > (device.*most.kind).edge;
-    by_cpu.edges = by_device.edges = edges_save ? most.edges : least.edges;
-    return std::max(0.0, by_cpu.time(cpu) - by_device.time(device));
+double WorkBounds::max_saved(const QueryCosts& cpu, const QueryCosts& device) const {
+    const WorkCost& by_cpu = cpu.*most.kind;
+    const WorkCost& by_device = device.*most.kind;
+    // Whatever the work, it is the same for both.
+    const auto saved = [&](double WorkCost::*cost, double Work::*part) {
+        const double each = by_cpu.*cost - by_device.*cost;
+        return each * (each > 0.0 ? most.*part : least.*part);
+    };
+    return std::max(0.0, by_cpu.query - by_device.query + saved(&WorkCost::edge, &Work::edges) +
+                             saved(&WorkCost::sample, &Work::samples) +
+                             saved(&WorkCost::search, &Work::searches));
 }
 
 WorkBounds work_bounds(const AnyQuery& query, const Polygon* a, const Polygon& b) {
@@ -241,8 +309,9 @@ WorkBounds work_bounds(const AnyQuery& query, const Polygon* a, const Polygon& b
 
 Work work_of(const AnyQuery& query, const Polygon* a, const Polygon& b) {
     const WorkBounds bounds = work_bounds(query, a, b);
-    const bool open =
-        bounds.least.samples < bounds.most.samples || bounds.least.edges < bounds.most.edges;
+    const bool open = bounds.least.samples < bounds.most.samples ||
+                      bounds.least.edges < bounds.most.edges ||
+                      bounds.least.searches < bounds.most.searches;
     return open ? std::visit(Estimate{a, b, bounds.most}, query) : bounds.most;
 }
 

@@ -1,21 +1,40 @@
 #pragma once
 
 #include <engine/geometry/polygon.hpp>
+#include <engine/select/load.hpp>
 #include <nearfield/cost.hpp>
 #include <nearfield/query.hpp>
 
+#include <array>
+
 namespace nearfield::select {
+
+inline constexpr std::array<WorkCost QueryCosts::*, 5> kinds_of_work{
+    &QueryCosts::points, &QueryCosts::closest, &QueryCosts::intersection, &QueryCosts::field,
+    &QueryCosts::features};
 
 /// The estimated work of a query.
 struct Work {
-    WorkCost TechniqueCost::*kind = &TechniqueCost::points;
+    WorkCost QueryCosts::*kind = &QueryCosts::points;
     double edges = 0.0;
     double samples = 0.0;
+    /// Of a distance field: the sum over its cells of the binary logarithm of 1 + the edges that
+    /// are about as near to a cell as the nearest.
+    double searches = 0.0;
+    bool is_read = true;  ///< the host reads results that a device has made
 
-    /// Microseconds by a technique, without its submission.
-    [[nodiscard]] double time(const TechniqueCost& costs) const {
+    /// Microseconds.
+    [[nodiscard]] double time(const QueryCosts& costs) const {
         const WorkCost& cost = costs.*kind;
-        return cost.query + cost.edge * edges + cost.sample * samples;
+        return cost.query + cost.edge * edges + cost.sample * samples + cost.search * searches;
+    }
+    /// Without submission and latency.
+    [[nodiscard]] Load load(const DeviceCosts& costs) const {
+        return {.alone = time(costs.plan) + (is_read ? time(costs.read) : 0.0),
+                .device = time(costs.device)};
+    }
+    [[nodiscard]] Load load(const CpuCosts& costs) const {
+        return {.alone = time(costs.plan), .cpu = time(costs.answer)};
     }
 };
 
@@ -24,8 +43,9 @@ struct WorkBounds {
     Work least;
     Work most;
 
-    /// The most microseconds that a device can save over the CPU, without submissions.
-    [[nodiscard]] double max_saved(const TechniqueCost& cpu, const TechniqueCost& device) const;
+    /// The most microseconds that a device can save over the CPU, if a query takes the device's
+    /// `device`.
+    [[nodiscard]] double max_saved(const QueryCosts& cpu, const QueryCosts& device) const;
 };
 
 // `a` is null if the query has none. The query's numbers may be invalid: for a query that will be

@@ -13,17 +13,29 @@ TEST_F(Calibrate, WritesCostsThatOtherCommandsGoBy) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     Json costs = Json::parse(folder_.read("costs.json"));
     EXPECT_FALSE(costs.at("device").get<std::string>().empty());
-    for (auto& [technique, cost] : costs.at("microseconds").items()) {
-        EXPECT_GE(cost.at("submission").get<double>(), 0.0) << technique;
+    EXPECT_GE(costs.at("overlap").get<double>(), 0.0);
+    EXPECT_LE(costs.at("overlap").get<double>(), 1.0);
+    const auto expect_times = [](const Json& kinds, const std::string& name) {
         double all = 0.0;
         for (const char* kind : {"points", "closest", "intersection", "field", "features"}) {
-            for (const char* part : {"query", "edge", "sample"}) {
-                const double microseconds = cost.at(kind).at(part);
-                EXPECT_GE(microseconds, 0.0) << technique << ' ' << kind << ' ' << part;
+            for (const char* part : {"query", "edge", "sample", "search"}) {
+                const double microseconds = kinds.at(kind).at(part);
+                EXPECT_GE(microseconds, 0.0) << name << ' ' << kind << ' ' << part;
                 all += microseconds;
             }
         }
-        EXPECT_GT(all, 0.0) << technique;
+        EXPECT_GT(all, 0.0) << name;
+    };
+    for (const std::string stage : {"plan", "answer"}) {
+        expect_times(costs.at("microseconds").at("cpu").at(stage), "cpu " + stage);
+    }
+    for (const std::string technique : {"raster", "compute"}) {
+        const Json& cost = costs.at("microseconds").at(technique);
+        EXPECT_GE(cost.at("submission").get<double>(), 0.0) << technique;
+        EXPECT_GT(cost.at("latency").get<double>(), 0.0) << technique;
+        for (const std::string stage : {"plan", "device", "read"}) {
+            expect_times(cost.at(stage), technique + ' ' + stage);
+        }
     }
     const Arguments query = squares("penetration", "automatic") +
                             Arguments{"-d", "0.1", "--pose-b", "0.6,0,5", "--costs"};
@@ -33,9 +45,17 @@ TEST_F(Calibrate, WritesCostsThatOtherCommandsGoBy) {
         Json changed = costs;
         for (auto& [technique, other] : changed.at("microseconds").items()) {
             const double microseconds = technique == favourite ? 0.0 : 1.0;
-            other.at("submission") = microseconds;
-            other.at("points") = {
-                {"query", microseconds}, {"edge", microseconds}, {"sample", microseconds}};
+            const Json points = {{"query", microseconds},
+                                 {"edge", microseconds},
+                                 {"sample", microseconds},
+                                 {"search", 0.0}};
+            for (auto& [name, member] : other.items()) {
+                if (member.is_number()) {
+                    member = microseconds;
+                } else {
+                    member.at("points") = points;
+                }
+            }
         }
         const std::string file_of_favourite = folder_.write("favourite.json", changed.dump());
         EXPECT_EQ(answer(query + Arguments{file_of_favourite}).at("technique"), favourite);

@@ -114,27 +114,45 @@ TEST_F(BadStructures, HalfAnAllocatorOfDeviceMemory) {
 
 TEST_F(BadStructures, CostsThatAreNoTimes) {
     for (const double bad : {-1.0, not_a_number, infinity, -infinity}) {
-        const auto try_cost = [&](auto TechniqueCost::*kind, double WorkCost::*part,
-                                  const std::string& name) {
+        const auto expect = [&](const std::string& name, auto member) {
             Settings settings;
             settings.costs = CostModel{};
-            settings.costs->compute.*kind.*part = bad;
-            expect_refused(settings, "Settings::costs.compute." + name + " is ");
+            member(*settings.costs) = bad;
+            expect_refused(settings, "Settings::costs." + name + " is ");
         };
-        try_cost(&TechniqueCost::points, &WorkCost::query, "points.query");
-        try_cost(&TechniqueCost::closest, &WorkCost::edge, "closest.edge");
-        try_cost(&TechniqueCost::intersection, &WorkCost::sample, "intersection.sample");
-        try_cost(&TechniqueCost::field, &WorkCost::edge, "field.edge");
-        try_cost(&TechniqueCost::features, &WorkCost::query, "features.query");
-        for (TechniqueCost CostModel::*technique : {&CostModel::raster, &CostModel::cpu}) {
-            Settings settings;
-            settings.costs = CostModel{};
-            (*settings.costs.*technique).submission = bad;
-            expect_refused(settings, ".submission is ");
+        const auto expect_kind = [&](auto QueryCosts::*kind, double WorkCost::*part,
+                                     const std::string& name) {
+            expect("compute.device." + name,
+                   [&](CostModel& costs) -> double& { return costs.compute.device.*kind.*part; });
+            expect("cpu.plan." + name,
+                   [&](CostModel& costs) -> double& { return costs.cpu.plan.*kind.*part; });
+            expect("cpu.answer." + name,
+                   [&](CostModel& costs) -> double& { return costs.cpu.answer.*kind.*part; });
+        };
+        expect_kind(&QueryCosts::points, &WorkCost::query, "points.query");
+        expect_kind(&QueryCosts::closest, &WorkCost::edge, "closest.edge");
+        expect_kind(&QueryCosts::intersection, &WorkCost::sample, "intersection.sample");
+        expect_kind(&QueryCosts::field, &WorkCost::edge, "field.edge");
+        expect_kind(&QueryCosts::features, &WorkCost::search, "features.search");
+        for (const auto& [stage, name] :
+             {std::pair(&DeviceCosts::plan, "plan"), std::pair(&DeviceCosts::read, "read")}) {
+            expect("raster." + std::string(name) + ".field.sample",
+                   [&, stage = stage](CostModel& costs) -> double& {
+                       return (costs.raster.*stage).field.sample;
+                   });
         }
+        expect("raster.submission",
+               [](CostModel& costs) -> double& { return costs.raster.submission; });
+        expect("compute.latency",
+               [](CostModel& costs) -> double& { return costs.compute.latency; });
+        expect("overlap", [](CostModel& costs) -> double& { return costs.overlap; });
     }
     Settings settings;
+    settings.costs = CostModel{};
+    settings.costs->overlap = 1.01;
+    expect_refused(settings, "Settings::costs.overlap is 1.01; it must be at least 0 and at most");
     settings.costs = CostModel{};  // all free, which is valid
+    settings.costs->overlap = 1.0;
     EXPECT_TRUE(Context::create(driver_.host(), settings).has_value());
 }
 

@@ -105,9 +105,10 @@ TEST(ComputeFamily, HasNoRasterAndSaysSo) {
 TEST(ComputeFamily, IsNeverGivenTheRasterByAutomatic) {
     Settings settings;
     const WorkCost dear{1e6, 1e6, 1e6};
+    const QueryCosts too_dear{dear, dear, dear, dear, dear};
     settings.costs = CostModel{};
-    settings.costs->compute = {1e6, dear, dear, dear, dear, dear};
-    settings.costs->cpu = settings.costs->compute;
+    settings.costs->compute = {1e6, 1e6, too_dear, too_dear, too_dear};
+    settings.costs->cpu = {too_dear, too_dear};
     const auto chosen = [&](std::uint32_t family) {
         OnFamily on(family, settings);
         return on.answer(on.query<IntersectionQuery>(Technique::automatic)).technique;

@@ -13,8 +13,8 @@ using test_support::errors_of;
 using test_support::MockDriver;
 using test_support::name_of;
 
-/// The calls that measuring costs makes as long as submissions succeed; several dozen submissions
-/// cover several kinds of queries.
+/// The calls that measuring costs makes as long as submissions succeed; the first ones have queries
+/// of all kinds.
 std::set<std::string_view> calls_of_measuring() {
     World world(Technique::raster);
     world.take_all_before(World::Step::submit_first);

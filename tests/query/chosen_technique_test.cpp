@@ -14,21 +14,27 @@ constexpr std::uint64_t seed = 1618;
 using ChosenTechnique = QueryTest;
 
 /// Costs that make one technique free and the others expensive.
-CostModel favouring(TechniqueCost CostModel::*technique) {
-    constexpr WorkCost dear{1.0, 1.0, 1.0};
-    constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};
-    CostModel costs{too_dear, too_dear, too_dear};
-    costs.*technique = {};
+CostModel favouring(Technique technique) {
+    CostModel costs = equally_dear();
+    switch (technique) {
+        case Technique::raster:
+            costs.raster = {};
+            break;
+        case Technique::compute:
+            costs.compute = {};
+            break;
+        default:
+            costs.cpu = {};
+            break;
+    }
     return costs;
 }
 
 TEST_F(ChosenTechnique, AutomaticIsWhatCostsLeast) {
-    for (const auto& [member, favourite] : {std::pair(&CostModel::raster, Technique::raster),
-                                            std::pair(&CostModel::compute, Technique::compute),
-                                            std::pair(&CostModel::cpu, Technique::cpu)}) {
+    for (const Technique favourite : {Technique::raster, Technique::compute, Technique::cpu}) {
         SCOPED_TRACE(to_string(favourite));
         Settings settings;
-        settings.costs = favouring(member);
+        settings.costs = favouring(favourite);
         settings.pipelines_on_demand = true;
         Expected<Context> made = Context::create(host_device(), settings);
         ASSERT_TRUE(made.has_value()) << made.error().text();
@@ -71,7 +77,7 @@ TEST_F(ChosenTechnique, AutomaticIsWhatCostsLeast) {
 /// while it answers.
 TEST_F(ChosenTechnique, AutomaticFieldsAreNotRefused) {
     Settings settings;
-    settings.costs = favouring(&CostModel::compute);
+    settings.costs = favouring(Technique::compute);
     settings.pipelines_on_demand = true;
     Expected<Context> made = Context::create(host_device(), settings);
     ASSERT_TRUE(made.has_value()) << made.error().text();

@@ -49,10 +49,16 @@ const testing::Environment* const registered = testing::AddGlobalTestEnvironment
 
 }  // namespace
 
-Settings drawing(Settings settings) {
+CostModel equally_dear() {
     constexpr WorkCost dear{1.0, 1.0, 1.0};
-    constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};
-    settings.costs = CostModel{{}, too_dear, too_dear};
+    constexpr QueryCosts too_dear{dear, dear, dear, dear, dear};
+    constexpr DeviceCosts device{1.0, 1.0, too_dear, too_dear, too_dear};
+    return {device, device, {too_dear, too_dear}};
+}
+
+Settings drawing(Settings settings) {
+    settings.costs = equally_dear();
+    settings.costs->raster = {};
     settings.pipelines_on_demand = true;
     return settings;
 }

@@ -29,9 +29,13 @@ void for_each_case(std::uint64_t seed, int usual, const Check& check) {
     }
 }
 
+/// Costs by which no technique is cheap; tests make one of them free.
+[[nodiscard]] CostModel equally_dear();
+
 /// Settings with which Technique::automatic uses the raster wherever possible, so that a query
 /// without a technique tests it, and with which no pipeline is made that a test does not need.
 [[nodiscard]] Settings drawing(Settings settings = {});
+
 /// The same with all pipelines made at once, as by default.
 [[nodiscard]] Settings with_all_pipelines(Settings settings = {});
 

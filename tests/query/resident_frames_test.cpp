@@ -197,9 +197,8 @@ TEST_F(Resident, RefusesByName) {
 TEST_F(Resident, AutomaticAnswersOnTheDevice) {
     // With costs that always make the CPU the fastest.
     Settings settings;
-    constexpr WorkCost dear{1.0, 1.0, 1.0};
-    constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};
-    settings.costs = CostModel{too_dear, too_dear, {}};
+    settings.costs = equally_dear();
+    settings.costs->cpu = {};
     Expected<Context> made = Context::create(host_device(), settings);
     ASSERT_TRUE(made.has_value()) << made.error().text();
     const ShapeHandle shape = *made->add_shape(regular(5));

@@ -15,24 +15,40 @@ struct NamedMember {
     Member Structure::*member;
 };
 
-constexpr std::array<NamedMember<CostModel, TechniqueCost>, 3> technique_members{{
+constexpr std::array<NamedMember<CostModel, DeviceCosts>, 2> device_members{{
     {"raster", &CostModel::raster},
     {"compute", &CostModel::compute},
-    {"cpu", &CostModel::cpu},
 }};
 
-constexpr std::array<NamedMember<TechniqueCost, WorkCost>, 5> kind_members{{
-    {"points", &TechniqueCost::points},
-    {"closest", &TechniqueCost::closest},
-    {"intersection", &TechniqueCost::intersection},
-    {"field", &TechniqueCost::field},
-    {"features", &TechniqueCost::features},
+constexpr std::array<NamedMember<DeviceCosts, double>, 2> once_members{{
+    {"submission", &DeviceCosts::submission},
+    {"latency", &DeviceCosts::latency},
 }};
 
-constexpr std::array<NamedMember<WorkCost, double>, 3> part_members{{
+constexpr std::array<NamedMember<DeviceCosts, QueryCosts>, 3> stage_members{{
+    {"plan", &DeviceCosts::plan},
+    {"device", &DeviceCosts::device},
+    {"read", &DeviceCosts::read},
+}};
+
+constexpr std::array<NamedMember<CpuCosts, QueryCosts>, 2> cpu_members{{
+    {"plan", &CpuCosts::plan},
+    {"answer", &CpuCosts::answer},
+}};
+
+constexpr std::array<NamedMember<QueryCosts, WorkCost>, 5> kind_members{{
+    {"points", &QueryCosts::points},
+    {"closest", &QueryCosts::closest},
+    {"intersection", &QueryCosts::intersection},
+    {"field", &QueryCosts::field},
+    {"features", &QueryCosts::features},
+}};
+
+constexpr std::array<NamedMember<WorkCost, double>, 4> part_members{{
     {"query", &WorkCost::query},
     {"edge", &WorkCost::edge},
     {"sample", &WorkCost::sample},
+    {"search", &WorkCost::search},
 }};
 
 double read_time(const JsonPlace& place) {
@@ -43,27 +59,74 @@ double read_time(const JsonPlace& place) {
     return microseconds;
 }
 
-TechniqueCost read_technique(const JsonPlace& place) {
-    TechniqueCost technique;
-    technique.submission = read_time(place.member("submission"));
+QueryCosts read_queries(const JsonPlace& place) {
+    QueryCosts costs;
     for (const auto& kind : kind_members) {
         const JsonPlace kind_place = place.member(kind.name);
         for (const auto& part : part_members) {
-            technique.*kind.member.*part.member = read_time(kind_place.member(part.name));
+            costs.*kind.member.*part.member = read_time(kind_place.member(part.name));
         }
     }
-    return technique;
+    return costs;
+}
+
+DeviceCosts read_device(const JsonPlace& place) {
+    DeviceCosts costs;
+    for (const auto& once : once_members) {
+        costs.*once.member = read_time(place.member(once.name));
+    }
+    for (const auto& stage : stage_members) {
+        costs.*stage.member = read_queries(place.member(stage.name));
+    }
+    return costs;
+}
+
+double read_overlap(const JsonPlace& place) {
+    const double overlap = place.number();
+    if (!(overlap >= 0.0 && overlap <= 1.0)) {
+        place.fail("expected a number of at least 0 and at most 1");
+    }
+    return overlap;
+}
+
+void write_queries(JsonWriter& json, const QueryCosts& costs) {
+    json.begin_object(JsonWriter::Layout::lines);
+    for (const auto& kind : kind_members) {
+        json.key(kind.name).begin_object();
+        for (const auto& part : part_members) {
+            json.key(part.name).value(costs.*kind.member.*part.member);
+        }
+        json.end_object();
+    }
+    json.end_object();
+}
+
+void write_device(JsonWriter& json, const DeviceCosts& costs) {
+    json.begin_object(JsonWriter::Layout::lines);
+    for (const auto& once : once_members) {
+        json.key(once.name).value(costs.*once.member);
+    }
+    for (const auto& stage : stage_members) {
+        write_queries(json.key(stage.name), costs.*stage.member);
+    }
+    json.end_object();
 }
 
 }  // namespace
 
 CostModel read_cost_model(const std::string& file) {
     const nlohmann::json document = parse_json(read_text(file), file);
-    const JsonPlace place = JsonPlace(document, file).member("microseconds");
+    const JsonPlace whole(document, file);
+    const JsonPlace place = whole.member("microseconds");
     CostModel costs;
-    for (const auto& technique : technique_members) {
-        costs.*technique.member = read_technique(place.member(technique.name));
+    for (const auto& technique : device_members) {
+        costs.*technique.member = read_device(place.member(technique.name));
     }
+    const JsonPlace cpu = place.member("cpu");
+    for (const auto& stage : cpu_members) {
+        costs.cpu.*stage.member = read_queries(cpu.member(stage.name));
+    }
+    costs.overlap = read_overlap(whole.member("overlap"));
     return costs;
 }
 
@@ -71,20 +134,16 @@ void write_cost_model(std::ostream& stream, const CostModel& costs, std::string_
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     json.key("device").value(device);
+    json.key("overlap").value(costs.overlap);
     json.key("microseconds").begin_object(JsonWriter::Layout::lines);
-    for (const auto& technique : technique_members) {
-        const TechniqueCost& cost = costs.*technique.member;
-        json.key(technique.name).begin_object(JsonWriter::Layout::lines);
-        json.key("submission").value(cost.submission);
-        for (const auto& kind : kind_members) {
-            json.key(kind.name).begin_object();
-            for (const auto& part : part_members) {
-                json.key(part.name).value(cost.*kind.member.*part.member);
-            }
-            json.end_object();
-        }
-        json.end_object();
+    for (const auto& technique : device_members) {
+        write_device(json.key(technique.name), costs.*technique.member);
     }
+    json.key("cpu").begin_object(JsonWriter::Layout::lines);
+    for (const auto& stage : cpu_members) {
+        write_queries(json.key(stage.name), costs.cpu.*stage.member);
+    }
+    json.end_object();
     json.end_object();
     json.end_object();
     stream << '\n';

@@ -149,7 +149,7 @@ TEST_F(CpuContext, MeasuresTheOneTechniqueThatItHas) {
     const Expected<CostModel> costs = measure_costs(context);
     ASSERT_TRUE(costs.has_value()) << costs.error().text();
     EXPECT_EQ(costs->raster.submission, 7.0);
-    EXPECT_GT(costs->cpu.points.query, 0.0);
+    EXPECT_GT(costs->cpu.answer.points.query, 0.0);
 }
 
 TEST_F(CpuContext, RefusesBadSettings) {

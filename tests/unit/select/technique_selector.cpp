@@ -1,3 +1,5 @@
+#include "timed_batch.hpp"
+
 #include <engine/plan/search_shapes.hpp>
 #include <engine/plan/technique.hpp>
 #include <engine/select/technique_selector.hpp>
@@ -6,8 +8,10 @@
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
 
-#include <array>
+#include <algorithm>
+#include <iterator>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace nearfield::select {
@@ -62,11 +66,12 @@ protected:
     /// A device that is fast after a fixed cost, and a processor without a fixed cost.
     static CostModel costs() {
         CostModel costs;
-        costs.raster.submission = costs.compute.submission = 100.0;
-        costs.cpu.points = costs.cpu.closest = costs.cpu.intersection = costs.cpu.field =
-            costs.cpu.features = {1.0, 0.01, 1.0};
-        costs.raster.points = costs.raster.field = {1.0, 0.01, 0.01};
-        costs.compute.points = costs.compute.field = {1.0, 0.01, 0.02};
+        costs.raster.submission = costs.compute.submission = 60.0;
+        costs.raster.latency = costs.compute.latency = 40.0;
+        QueryCosts& cpu = costs.cpu.answer;
+        cpu.points = cpu.closest = cpu.intersection = cpu.field = cpu.features = {1.0, 0.01, 1.0};
+        costs.raster.device.points = costs.raster.device.field = {1.0, 0.01, 0.01};
+        costs.compute.device.points = costs.compute.device.field = {1.0, 0.01, 0.02};
         return costs;
     }
 
@@ -89,9 +94,9 @@ TEST_F(ChooserTest, LeavesWhatIsAskedForByName) {
 
 TEST_F(ChooserTest, AvoidsComputeWhereItsBuffersAreTooSmall) {
     CostModel costs = ChooserTest::costs();
-    costs.compute.submission = 0.0;
-    costs.cpu.intersection = costs.raster.intersection = {1.0, 1.0, 1.0};
-    costs.compute.intersection = {};
+    costs.compute.submission = costs.compute.latency = 0.0;
+    costs.cpu.answer.intersection = costs.raster.plan.intersection = {1.0, 1.0, 1.0};
+    costs.compute.device.intersection = {};
     IntersectionQuery overlap;
     overlap.a.shape = {0, 0};
     overlap.b.shape = {1, 0};
@@ -119,7 +124,7 @@ TEST_F(ChooserTest, PaysForASubmissionOnlyWhereItIsWorthIt) {
 
 TEST_F(ChooserTest, WhatADeviceWouldLoseOnOneQueryKeepsNoOtherFromIt) {
     CostModel costs = ChooserTest::costs();
-    costs.raster.field = costs.compute.field = {1e9, 0.0, 0.0};
+    costs.raster.device.field = costs.compute.device.field = {1e9, 0.0, 0.0};
     const std::vector<AnyQuery> chosen = choose(costs, {penetration(0.0001), field(0.5)});
     EXPECT_EQ(technique_of(chosen[0]), Technique::raster);
     EXPECT_EQ(technique_of(chosen[1]), Technique::cpu);
@@ -128,12 +133,13 @@ TEST_F(ChooserTest, WhatADeviceWouldLoseOnOneQueryKeepsNoOtherFromIt) {
 TEST_F(ChooserTest, EquallyFastTechniquesAreTakenInTheirOrder) {
     CostModel costs = ChooserTest::costs();
     costs.raster.submission = costs.compute.submission = 0.0;
+    costs.raster.latency = costs.compute.latency = 0.0;
     const WorkCost fast{1.0, 0.0, 0.0};
     const WorkCost slow{1000.0, 0.0, 0.0};
-    costs.cpu.points = costs.cpu.intersection = costs.cpu.field = slow;
-    costs.raster.points = costs.compute.intersection = slow;
-    costs.raster.intersection = costs.compute.points = fast;
-    costs.raster.field = costs.compute.field = fast;
+    costs.cpu.answer.points = costs.cpu.answer.intersection = costs.cpu.answer.field = slow;
+    costs.raster.device.points = costs.compute.device.intersection = slow;
+    costs.raster.device.intersection = costs.compute.device.points = fast;
+    costs.raster.device.field = costs.compute.device.field = fast;
     // One query is faster by compute and one by raster, so both are used; the third one is as fast
     // by either.
     IntersectionQuery overlap;
@@ -169,65 +175,170 @@ TEST_F(ChooserTest, TakesQueriesThatWillBeRefused) {
     }
 }
 
-/// Zero, or a random cost on a logarithmic scale.
-double random_cost(Random& random) {
-    return random.whole(0, 3) == 0 ? 0.0 : random.scale(1e-3, 10.0);
+/// Fields that the device answers in nine tenths of the CPU's time, and nothing else costs
+/// anything.
+CostModel nearly_as_fast(double overlap) {
+    CostModel costs;
+    costs.compute.device.field = {90.0, 0.0, 0.0};
+    costs.cpu.answer.field = {100.0, 0.0, 0.0};
+    costs.raster.plan.field = {1e6, 0.0, 0.0};
+    costs.overlap = overlap;
+    return costs;
 }
 
-TechniqueCost random_technique(Random& random) {
-    TechniqueCost cost;
-    cost.submission = random.scale(1.0, 1e5);
-    for (WorkCost TechniqueCost::*const kind :
-         {&TechniqueCost::points, &TechniqueCost::closest, &TechniqueCost::intersection,
-          &TechniqueCost::field, &TechniqueCost::features}) {
-        cost.*kind = {random_cost(random), random_cost(random), random_cost(random)};
-    }
-    return cost;
+TEST_F(ChooserTest, DividesABatchBetweenDeviceAndCpuWhereTheyWorkSideBySide) {
+    const std::vector<AnyQuery> fields(19, field(0.1));
+    const auto on_device = [&](const CostModel& costs) {
+        const std::vector<AnyQuery> chosen = choose(costs, fields);
+        return std::count_if(chosen.begin(), chosen.end(), [](const AnyQuery& query) {
+            return technique_of(query) == Technique::compute;
+        });
+    };
+    EXPECT_EQ(on_device(nearly_as_fast(0.0)), 19);
+    EXPECT_EQ(on_device(nearly_as_fast(1.0)), 10);  // 900 microseconds on either side
+    EXPECT_EQ(on_device(nearly_as_fast(0.5)), 10);
+    CostModel slow = nearly_as_fast(1.0);
+    slow.compute.device.field.query = 1000.0;
+    EXPECT_EQ(on_device(slow), 1);  // 1,000 microseconds beside the CPU's 1,800
+    slow.overlap = 0.05;
+    EXPECT_EQ(on_device(slow), 0);
+    slow.overlap = 1.0;
+    slow.compute.latency = 900.0;
+    EXPECT_EQ(on_device(slow), 0);
+    slow.compute.latency = 0.0;
+    slow.compute.plan.field.query = 101.0;  // nothing hides this
+    EXPECT_EQ(on_device(slow), 0);
+    CostModel close = nearly_as_fast(0.0);
+    close.compute.device.field.query = 98.0;  // not worth a device
+    EXPECT_EQ(on_device(close), 0);
+    close.compute.device.field.query = 96.0;
+    EXPECT_EQ(on_device(close), 19);
+    CostModel planned = nearly_as_fast(1.0);  // nor a plan of the CPU
+    planned.cpu = {.plan = planned.cpu.answer};
+    EXPECT_EQ(on_device(planned), 19);
 }
 
-TEST_F(ChooserTest, IsNeverSlowerByItsModelThanOneTechniqueForAll) {
-    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+TEST_F(ChooserTest, CountsWhatOthersAskForByNameAsLoads) {
+    const CostModel costs = nearly_as_fast(1.0);
+    const auto beside = [&](Technique technique, std::size_t count) {
+        DistanceFieldQuery named = field(0.1);
+        named.technique = technique;
+        std::vector<AnyQuery> queries(count, named);
+        queries.emplace_back(field(0.1));
+        return technique_of(choose(costs, queries).back());
+    };
+    EXPECT_EQ(beside(Technique::cpu, 3), Technique::compute);
+    EXPECT_EQ(beside(Technique::compute, 3), Technique::cpu);
+}
+
+TEST_F(ChooserTest, CountsNoReadingOfWhatStaysOnTheDevice) {
+    CostModel costs;
+    costs.raster.device.field = {1.0, 0.0, 1.0};
+    costs.compute.device.field = {1.0, 0.0, 2.0};
+    costs.raster.read.field = {1.0, 0.0, 3.0};
+    DistanceFieldQuery resident = field(0.1);
+    resident.resident = true;
+    resident.resident_features = false;
+    EXPECT_EQ(technique_of(choose(costs, {resident})[0]), Technique::compute);
+    resident.values = false;
+    EXPECT_EQ(technique_of(choose(costs, {resident})[0]), Technique::raster);
+}
+
+/// The CPU is chosen where the batch takes up to so much longer; and room for a 4,096th.
+constexpr double preference = 1.032;
+
+TEST_F(ChooserTest, TakesTheLeastTimeButForOneQuery) {
+    int exact = 0;  // but for the preference
+    constexpr int cases = 400;
+    for (std::uint64_t seed = 0; seed < cases; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
-        CostModel costs;
-        for (TechniqueCost CostModel::*const technique :
-             {&CostModel::raster, &CostModel::compute, &CostModel::cpu}) {
-            costs.*technique = random_technique(random);
-        }
-        costs.cpu.submission = 0.0;
+        const CostModel costs = random_model(random);
         std::vector<AnyQuery> queries;
-        for (int i = random.whole(1, 6); i > 0; --i) {
+        std::vector<Work> works;
+        for (int i = random.whole(1, 7); i > 0; --i) {
             const double tolerance = random.scale(1e-3, 0.5);
-            queries.emplace_back(penetration(tolerance));
-            queries.emplace_back(field(tolerance));
-        }
-        const auto time_of = [&](const std::vector<AnyQuery>& batch) {
-            std::array<bool, 3> used{};
-            double time = 0.0;
-            for (const AnyQuery& query : batch) {
-                const Technique technique = technique_of(query);
-                const TechniqueCost& cost = technique == Technique::raster    ? costs.raster
-                                            : technique == Technique::compute ? costs.compute
-                                                                              : costs.cpu;
-                bool& paid = used[static_cast<std::size_t>(technique) - 1];
-                time += (paid ? 0.0 : cost.submission) +
-                        select::work_of(query, &small_, large_).time(cost);
-                paid = true;
+            AnyQuery query = penetration(tolerance);
+            if (random.whole(0, 1) == 0) {
+                query = field(tolerance);
             }
-            return time;
+            std::visit(
+                [&](auto& asked) {
+                    asked.technique = random.whole(0, 4) > 0   ? Technique::automatic
+                                      : random.whole(0, 1) > 0 ? Technique::compute
+                                                               : Technique::cpu;
+                },
+                query);
+            queries.push_back(query);
+            works.push_back(select::work_of(query, &small_, large_));
+        }
+        const TimedBatch batch(costs, works);
+        const auto techniques_of = [](const std::vector<AnyQuery>& asked) {
+            std::vector<Technique> techniques;
+            std::transform(asked.begin(), asked.end(), std::back_inserter(techniques),
+                           technique_of);
+            return techniques;
         };
-        const double chosen = time_of(choose(costs, queries));
-        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
-            std::vector<AnyQuery> uniform = queries;
-            bool all = true;
-            for (AnyQuery& query : uniform) {
-                std::visit([&](auto& asked) { asked.technique = technique; }, query);
-                all = all && plan::answers(technique, query);
-            }
-            if (all) {
-                EXPECT_LE(chosen, time_of(uniform) * (1.0 + 1e-12)) << to_string(technique);
-            }
+        const double chosen = batch.time(techniques_of(choose(costs, queries)));
+        const double least = batch.least(techniques_of(queries));
+        exact += chosen <= least * preference ? 1 : 0;
+        EXPECT_LE(chosen, (least + batch.largest()) * preference);
+        const auto others = std::count_if(
+            queries.begin(), queries.end(),
+            [](const AnyQuery& query) { return technique_of(query) != Technique::automatic; });
+        if (others > 0) {
+            continue;
         }
+        if (queries.size() == 1) {
+            EXPECT_LE(chosen, least * preference);
+        }
+        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+            EXPECT_LE(chosen,
+                      batch.time(std::vector<Technique>(queries.size(), technique)) * (1.0 + 1e-12))
+                << to_string(technique);
+        }
+    }
+    EXPECT_GT(exact, cases * 9 / 10);
+}
+
+/// More queries than all ways to choose could be tried for: against a bound from below, which holds
+/// for any price of the device's time.
+TEST_F(ChooserTest, OfManyQueriesAsFew) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Random random(seed);
+        const CostModel costs = random_model(random);
+        std::vector<AnyQuery> queries;
+        std::vector<Work> works;
+        for (int i = 0; i < 200; ++i) {
+            queries.emplace_back(field(random.scale(1e-2, 0.5)));
+            works.push_back(select::work_of(queries.back(), nullptr, large_));
+        }
+        const TimedBatch batch(costs, works);
+        std::vector<Technique> techniques;
+        for (const AnyQuery& query : choose(costs, queries)) {
+            techniques.push_back(technique_of(query));
+        }
+        double bound = 0.0;
+        for (int step = 0; step <= 100; ++step) {
+            const double device = 1.0 - costs.overlap * 0.01 * step;
+            const double cpu = 1.0 - costs.overlap * (1.0 - 0.01 * step);
+            double sum = 0.0;
+            for (const Work& work : works) {
+                double least = work.time(costs.cpu.plan) + cpu * work.time(costs.cpu.answer);
+                for (const DeviceCosts& by : {costs.raster, costs.compute}) {
+                    least = std::min(least, work.time(by.plan) + work.time(by.read) +
+                                                device * work.time(by.device));
+                }
+                sum += least;
+            }
+            bound = std::max(bound, sum);
+        }
+        double once = 0.0;  // the bound is for free submissions
+        for (const DeviceCosts& by : {costs.raster, costs.compute}) {
+            once += by.submission + by.latency;
+        }
+        EXPECT_LE(batch.time(techniques), (bound + once + batch.largest()) * preference);
     }
 }
 
