@@ -179,7 +179,8 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
         ->needs(paper);
     command
         ->add_option("--technique", arguments.technique,
-                     "raster, compute, cpu or automatic, of all queries; default as the scene says")
+                     "raster, compute, cpu or automatic, of all queries, those of all instances "
+                     "included; default as the scene says")
         ->type_name("NAME")
         ->needs(scene);
     add_settings_options(*command, arguments.settings);

@@ -1,5 +1,6 @@
 #include <tools/cli/open_context.hpp>
 #include <tools/common/library_error.hpp>
+#include <tools/io/world_technique.hpp>
 
 #include <iostream>
 
@@ -8,8 +9,13 @@ namespace nearfield::tools {
 AskedTechniques techniques_of(const Scene& scene) {
     AskedTechniques asked;
     for (const SceneQuery& query : scene.queries) {
-        if (query.problem.empty() && !query.world) {
+        if (!query.problem.empty()) {
+            continue;
+        }
+        if (!query.world) {
             asked.add(query.request);
+        } else if (technique_problem(*query.world).empty()) {
+            asked.add(answering_technique(*query.world));
         }
     }
     return asked;

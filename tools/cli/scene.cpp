@@ -164,7 +164,8 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
     add_outline_options(*command, arguments);
     command
         ->add_option("--technique", arguments.technique,
-                     "raster, compute, cpu or automatic, of all queries; default as the scene says")
+                     "raster, compute, cpu or automatic, of all queries, those of all instances "
+                     "included; default as the scene says")
         ->type_name("NAME");
     command->add_flag(
         "--strict", arguments.strict,

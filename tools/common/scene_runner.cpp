@@ -1,9 +1,11 @@
 #include <tools/common/add_shape.hpp>
+#include <tools/common/add_timings.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/query_request.hpp>
 #include <tools/io/usual_tolerance.hpp>
+#include <tools/io/world_technique.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -20,8 +22,11 @@ std::optional<Technique> parse_technique_option(const std::optional<std::string>
 }
 
 void set_technique(Scene& scene, std::optional<Technique> technique) {
-    for (SceneQuery& query : scene.queries) {  // those of all instances are the CPU's
+    for (SceneQuery& query : scene.queries) {
         query.request.technique = technique.value_or(query.request.technique);
+        if (query.world) {
+            query.world->technique = technique.value_or(query.world->technique);
+        }
     }
 }
 
@@ -38,27 +43,6 @@ AnyResult refusal(const Status& status) {
     PenetrationResult result;
     result.status = status;
     return result;
-}
-
-/// Of batches one after the other; passes by name.
-void add_timings(const Timings& more, Timings& sum) {
-    sum.localize += more.localize;
-    sum.plan += more.plan;
-    sum.record += more.record;
-    sum.device += more.device;
-    sum.decode += more.decode;
-    sum.total += more.total;
-    sum.queries.insert(sum.queries.end(), more.queries.begin(), more.queries.end());
-    for (const PassTime& pass : more.passes) {
-        const auto found =
-            std::find_if(sum.passes.begin(), sum.passes.end(),
-                         [&pass](const PassTime& other) { return other.name == pass.name; });
-        if (found == sum.passes.end()) {
-            sum.passes.push_back(pass);
-        } else {
-            found->milliseconds += pass.milliseconds;
-        }
-    }
 }
 
 }  // namespace
@@ -281,6 +265,10 @@ void SceneRunner::refuse(Entry entry, const std::string& reason) {
 void SceneRunner::add_world_query(std::size_t query) {
     const WorldRequest& request = *scene_.queries[query].world;
     const Entry nobody{.query = query, .a = Entry::all, .b = Entry::all};
+    if (const std::string problem = technique_problem(request); !problem.empty()) {
+        refuse(nobody, place_of(query) + ": " + problem);
+        return;
+    }
     if (request.shape && !shape_problems_[*request.shape].empty()) {
         Entry entry = nobody;
         entry.is_dependent = true;
@@ -291,7 +279,7 @@ void SceneRunner::add_world_query(std::size_t query) {
     entry.result = outside_batch_.size();
     entry.is_world = true;
     IntersectionTestResult pending;
-    pending.technique = Technique::cpu;
+    pending.technique = answering_technique(request);
     outside_batch_.emplace_back(std::move(pending));
     entries_.push_back(entry);
     std::vector<std::size_t> considered =
@@ -307,19 +295,22 @@ void SceneRunner::add_world_query(std::size_t query) {
 }
 
 void SceneRunner::answer_world_queries(const Limits& limits) {
+    if (!worlds_) {
+        return;
+    }
     const auto start = std::chrono::steady_clock::now();
+    Timings& timings = results_.timings;
+    const double before = timings.total;
     for (const Entry& entry : entries_) {
         if (!entry.is_world) {
             continue;
         }
-        const Status status = worlds_->answer(entry.query, limits);
+        const Status status = worlds_->answer(entry.query, limits, timings);
         std::visit([&status](auto& result) { result.status = status; },
                    outside_batch_[entry.result]);
     }
-    if (worlds_) {
-        const auto end = std::chrono::steady_clock::now();
-        results_.timings.total += std::chrono::duration<double, std::milli>(end - start).count();
-    }
+    const auto end = std::chrono::steady_clock::now();
+    timings.total = before + std::chrono::duration<double, std::milli>(end - start).count();
 }
 
 bool SceneRunner::is_usable(std::size_t instance) const {

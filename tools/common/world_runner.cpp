@@ -1,5 +1,7 @@
+#include <tools/common/add_timings.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/world_runner.hpp>
+#include <tools/io/world_technique.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -103,20 +105,20 @@ void WorldRunner::add_world(Context& context, std::size_t first_group) {
     worlds_.push_back(std::move(grouped));
 }
 
-Status WorldRunner::answer(std::size_t query, const Limits& limits) {
+Status WorldRunner::answer(std::size_t query, const Limits& limits, Timings& timings) {
     Entry& entry = entries_[query];
-    World& world = worlds_[entry.group / groups_per_world].world;
+    const Call call{worlds_[entry.group / groups_per_world], limits, timings};
     switch (entry.answer.request->type) {
         case WorldQueryType::poses:
-            return answer_poses(world, entry, limits);
+            return answer_poses(call, entry);
         case WorldQueryType::nearest:
-            return answer_nearest(world, entry, limits);
+            return answer_nearest(call, entry);
         case WorldQueryType::rays:
-            return answer_rays(world, entry, limits);
+            return answer_rays(call, entry);
         case WorldQueryType::cast:
-            return answer_cast(world, entry, limits);
+            return answer_cast(call, entry);
         case WorldQueryType::overlap:
-            return answer_overlap(world, entry, limits);
+            return answer_overlap(call, entry);
     }
     return {};
 }
@@ -125,8 +127,30 @@ ShapeHandle WorldRunner::shape_of(const Entry& entry) const {
     return shapes_[entry.answer.request->shape.value()];
 }
 
-Status WorldRunner::answer_poses(World& world, Entry& entry, const Limits& limits) const {
+/// Halves the parts until one submission takes them: how many that are depends on memory.
+template <class Device, class Input, class Output, class Ask>
+Status WorldRunner::ask_device(ByDevice<Device>& by, Timings& timings,
+                               std::span<const Input> inputs, std::span<Output> outputs,
+                               const Ask& ask) {
+    for (std::size_t first = 0; first < inputs.size();) {
+        const std::size_t count = std::min(by.part, inputs.size() - first);
+        Status status = ask(by.device, inputs.subspan(first, count), outputs.subspan(first, count));
+        if (status.code() == StatusCode::too_large && count > 1) {
+            by.part = count / 2;
+            continue;
+        }
+        if (!status.ok()) {
+            return status;
+        }
+        add_timings(by.device.timings(), timings);
+        first += count;
+    }
+    return {};
+}
+
+Status WorldRunner::answer_poses(const Call& call, Entry& entry) const {
     const WorldRequest& request = *entry.answer.request;
+    World& world = call.world.world;
     if (request.clearance) {
         auto& clearances = become<std::vector<Clearance>>(entry.answer.records);
         clearances.resize(request.poses.size());
@@ -135,11 +159,19 @@ Status WorldRunner::answer_poses(World& world, Entry& entry, const Limits& limit
         query.filter = entry.filter;
         query.min_clearance = request.min_clearance;
         query.max_clearance = request.max_clearance;
-        return world.find_clearances(query, request.poses, clearances, limits);
+        return world.find_clearances(query, request.poses, clearances, call.limits);
     }
     auto& intersects = become<std::vector<std::uint8_t>>(entry.answer.records);
     intersects.resize(request.poses.size());
-    return world.test_poses({shape_of(entry), entry.filter}, request.poses, intersects, limits);
+    const PoseTestQuery query{shape_of(entry), entry.filter};
+    if (answering_technique(request) == Technique::cpu) {
+        return world.test_poses(query, request.poses, intersects, call.limits);
+    }
+    return ask_device(call.world.tests, call.timings, std::span<const Pose>(request.poses),
+                      std::span(intersects),
+                      [&](DevicePoseTests& device, auto poses, auto results) {
+                          return world.test_poses(device, query, poses, results, call.limits);
+                      });
 }
 
 /// No more hits of a point are asked for than there can be.
@@ -161,25 +193,25 @@ std::uint32_t WorldRunner::wanted_hits(const Entry& entry) const {
 
 /// Asks about some inputs at a time, so that memory grows with the hits that there are, not with
 /// those that were wanted.
-template <class Query, class Input, class Hit>
-Status WorldRunner::write_nearest(World& world, const Query& query, std::span<const Input> inputs,
-                                  const Limits& limits, std::vector<Hit>& scratch,
-                                  NearestLists<Hit>& lists) {
+template <class Input, class Hit, class Find>
+Status WorldRunner::write_nearest(std::span<const Input> inputs, std::uint32_t count,
+                                  std::vector<Hit>& scratch, NearestLists<Hit>& lists,
+                                  const Find& find) {
     constexpr std::size_t hits_at_a_time = std::size_t{1} << 18U;
     lists.offsets.assign(1, 0);
     lists.hits.clear();
-    const std::size_t part = std::max<std::size_t>(hits_at_a_time / query.count, 1);
+    const std::size_t part = std::max<std::size_t>(hits_at_a_time / count, 1);
     for (std::size_t first = 0; first < inputs.size(); first += part) {
         const auto asked = inputs.subspan(first, std::min(part, inputs.size() - first));
-        scratch.resize(asked.size() * query.count);
-        if (Status status = world.find_nearest(query, asked, scratch, limits); !status.ok()) {
+        scratch.resize(asked.size() * count);
+        if (Status status = find(asked, std::span(scratch)); !status.ok()) {
             return status;
         }
         for (std::size_t i = 0; i < scratch.size(); ++i) {
             if (!(scratch[i].instance == InstanceHandle{})) {
                 lists.hits.push_back(scratch[i]);
             }
-            if ((i + 1) % query.count == 0) {
+            if ((i + 1) % count == 0) {
                 lists.offsets.push_back(static_cast<std::uint32_t>(lists.hits.size()));
             }
         }
@@ -187,39 +219,62 @@ Status WorldRunner::write_nearest(World& world, const Query& query, std::span<co
     return {};
 }
 
-Status WorldRunner::answer_nearest(World& world, Entry& entry, const Limits& limits) {
+Status WorldRunner::answer_nearest(const Call& call, Entry& entry) {
     const WorldRequest& request = *entry.answer.request;
+    World& world = call.world.world;
+    const std::uint32_t count = wanted_hits(entry);
+    const auto by_cpu = [&](const auto& query) {
+        return [&](auto inputs, auto hits) {
+            return world.find_nearest(query, inputs, hits, call.limits);
+        };
+    };
     if (request.shape && request.kind == NearestKind::edges) {
-        const ShapeEdgeQuery query{shape_of(entry), entry.filter, wanted_hits(entry),
-                                   request.max_distance};
-        return write_nearest(world, query, std::span<const Pose>(request.poses), limits,
-                             edges_near_shape_,
-                             become<NearestLists<ShapeEdgeHit>>(entry.answer.records));
+        const ShapeEdgeQuery query{shape_of(entry), entry.filter, count, request.max_distance};
+        return write_nearest(std::span<const Pose>(request.poses), count, edges_near_shape_,
+                             become<NearestLists<ShapeEdgeHit>>(entry.answer.records),
+                             by_cpu(query));
     }
     if (request.shape) {
-        const ShapeNearestQuery query{shape_of(entry), entry.filter, wanted_hits(entry),
-                                      request.max_distance};
-        return write_nearest(world, query, std::span<const Pose>(request.poses), limits,
-                             nearest_of_shape_,
-                             become<NearestLists<Clearance>>(entry.answer.records));
+        const ShapeNearestQuery query{shape_of(entry), entry.filter, count, request.max_distance};
+        return write_nearest(std::span<const Pose>(request.poses), count, nearest_of_shape_,
+                             become<NearestLists<Clearance>>(entry.answer.records), by_cpu(query));
     }
-    const NearestQuery query{wanted_hits(entry), request.kind, request.max_distance, entry.filter};
-    return write_nearest(world, query, std::span<const Vector2>(request.points), limits, nearest_,
-                         become<NearestLists<NearestHit>>(entry.answer.records));
+    const NearestQuery query{count, request.kind, request.max_distance, entry.filter};
+    const std::span<const Vector2> points(request.points);
+    auto& lists = become<NearestLists<NearestHit>>(entry.answer.records);
+    if (answering_technique(request) == Technique::cpu) {
+        return write_nearest(points, count, nearest_, lists, by_cpu(query));
+    }
+    return write_nearest(
+        points, count, nearest_, lists, [&](auto some, std::span<NearestHit> hits) {
+            return ask_device(call.world.nearest, call.timings, some, hits,
+                              [&](DeviceNearest& device, auto inputs, auto outputs) {
+                                  return world.find_nearest(device, query, inputs, outputs,
+                                                            call.limits);
+                              });
+        });
 }
 
-Status WorldRunner::answer_rays(World& world, Entry& entry, const Limits& limits) const {
+Status WorldRunner::answer_rays(const Call& call, Entry& entry) const {
     const WorldRequest& request = *entry.answer.request;
+    World& world = call.world.world;
     if (request.all_hits) {
         return world.cast_rays(request.segments, become<RayHits>(entry.answer.records),
-                               entry.filter, limits);
+                               entry.filter, call.limits);
     }
     auto& hits = become<std::vector<RayHit>>(entry.answer.records);
     hits.resize(request.segments.size());
-    return world.cast_rays(request.segments, hits, entry.filter, limits);
+    if (answering_technique(request) == Technique::cpu) {
+        return world.cast_rays(request.segments, hits, entry.filter, call.limits);
+    }
+    return ask_device(call.world.rays, call.timings, std::span<const Segment>(request.segments),
+                      std::span(hits), [&](DeviceRays& device, auto segments, auto results) {
+                          return world.cast_rays(device, segments, results, entry.filter,
+                                                 call.limits);
+                      });
 }
 
-Status WorldRunner::answer_cast(World& world, Entry& entry, const Limits& limits) const {
+Status WorldRunner::answer_cast(const Call& call, Entry& entry) const {
     const WorldRequest& request = *entry.answer.request;
     auto& hits = become<std::vector<ShapeCastHit>>(entry.answer.records);
     hits.resize(request.sweeps.size());
@@ -228,21 +283,23 @@ Status WorldRunner::answer_cast(World& world, Entry& entry, const Limits& limits
     query.filter = entry.filter;
     query.tolerance = request.tolerance;
     query.contact_distance = request.contact_distance;
-    return world.cast_shape(query, request.sweeps, hits, limits);
+    return call.world.world.cast_shape(query, request.sweeps, hits, call.limits);
 }
 
-Status WorldRunner::answer_overlap(World& world, Entry& entry, const Limits& limits) const {
+Status WorldRunner::answer_overlap(const Call& call, Entry& entry) const {
     const WorldRequest& request = *entry.answer.request;
+    World& world = call.world.world;
     auto& lists = become<InstanceLists>(entry.answer.records);
     if (request.shape) {
-        return world.find_overlaps({shape_of(entry), entry.filter}, request.poses, lists, limits);
+        return world.find_overlaps({shape_of(entry), entry.filter}, request.poses, lists,
+                                   call.limits);
     }
     if (!request.points.empty()) {
         return world.find_overlaps(std::span<const Vector2>(request.points), lists, entry.filter,
-                                   limits);
+                                   call.limits);
     }
     return world.find_overlaps(std::span<const Rectangle>(request.rectangles), lists, entry.filter,
-                               limits);
+                               call.limits);
 }
 
 }  // namespace nearfield::tools

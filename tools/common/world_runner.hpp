@@ -1,6 +1,8 @@
 #pragma once
 
+#include <nearfield/timings.hpp>
 #include <nearfield/world.hpp>
+#include <nearfield/world_device_queries.hpp>
 
 #include <tools/io/world_answer.hpp>
 
@@ -20,9 +22,10 @@ public:
     WorldRunner(const Scene& scene, Context& context, std::span<const ShapeHandle> shapes,
                 std::span<const Instance> instances, std::span<const std::size_t> sound);
 
-    /// Answers the scene's query with this index, which must be one of a world. An error is
-    /// returned, and leaves the answer undefined.
-    [[nodiscard]] Status answer(std::size_t query, const Limits& limits);
+    /// Answers the scene's query with this index, which must be one of a world that its technique
+    /// answers (technique_problem()), and adds the times of the device. An error is returned, and
+    /// leaves the answer undefined.
+    [[nodiscard]] Status answer(std::size_t query, const Limits& limits, Timings& timings);
 
     /// The last answer to a query. Valid until it is answered again.
     [[nodiscard]] const WorldAnswer& answer_of(std::size_t query) const {
@@ -30,11 +33,26 @@ public:
     }
 
 private:
+    /// What asks the device, and how many inputs at a time.
+    template <class Device>
+    struct ByDevice {
+        Device device = {};
+        std::size_t part = std::size_t{1} << 20U;
+    };
     /// A world, whose filters distinguish a limited number of groups.
     struct GroupedWorld {
         World world;
         std::vector<InstanceHandle> handles;  ///< by index into Scene::instances
         std::vector<std::size_t> instances;   ///< indices into it, by InstanceHandle::index
+        ByDevice<DevicePoseTests> tests = {};
+        ByDevice<DeviceNearest> nearest = {};
+        ByDevice<DeviceRays> rays = {};
+    };
+    /// What one call of answer() is given.
+    struct Call {
+        GroupedWorld& world;
+        const Limits& limits;
+        Timings& timings;
     };
     /// What a query needs.
     struct Entry {
@@ -48,17 +66,23 @@ private:
     /// The number of the group of these instances, which it gets when it is new.
     [[nodiscard]] std::size_t group_of(std::vector<std::size_t> instances);
 
-    [[nodiscard]] Status answer_poses(World& world, Entry& entry, const Limits& limits) const;
-    [[nodiscard]] Status answer_nearest(World& world, Entry& entry, const Limits& limits);
-    [[nodiscard]] Status answer_rays(World& world, Entry& entry, const Limits& limits) const;
-    [[nodiscard]] Status answer_cast(World& world, Entry& entry, const Limits& limits) const;
-    [[nodiscard]] Status answer_overlap(World& world, Entry& entry, const Limits& limits) const;
-    /// Finds those of points, or of a shape at poses. `scratch`: of some of them at a time, with
-    /// what was not found.
-    template <class Query, class Input, class Hit>
-    [[nodiscard]] static Status write_nearest(World& world, const Query& query,
-                                              std::span<const Input> inputs, const Limits& limits,
-                                              std::vector<Hit>& scratch, NearestLists<Hit>& lists);
+    [[nodiscard]] Status answer_poses(const Call& call, Entry& entry) const;
+    [[nodiscard]] Status answer_nearest(const Call& call, Entry& entry);
+    [[nodiscard]] Status answer_rays(const Call& call, Entry& entry) const;
+    [[nodiscard]] Status answer_cast(const Call& call, Entry& entry) const;
+    [[nodiscard]] Status answer_overlap(const Call& call, Entry& entry) const;
+    /// Has the device answer inputs, as many at a time as it takes: `ask(device, inputs, outputs)`
+    /// does so for some of them.
+    template <class Device, class Input, class Output, class Ask>
+    [[nodiscard]] static Status ask_device(ByDevice<Device>& by, Timings& timings,
+                                           std::span<const Input> inputs, std::span<Output> outputs,
+                                           const Ask& ask);
+    /// Finds those of points, or of a shape at poses: `find(inputs, hits)` finds `count` hits each.
+    /// `scratch`: of some of them at a time, with what was not found.
+    template <class Input, class Hit, class Find>
+    [[nodiscard]] static Status write_nearest(std::span<const Input> inputs, std::uint32_t count,
+                                              std::vector<Hit>& scratch, NearestLists<Hit>& lists,
+                                              const Find& find);
     [[nodiscard]] std::uint32_t wanted_hits(const Entry& entry) const;
     [[nodiscard]] ShapeHandle shape_of(const Entry& entry) const;
 

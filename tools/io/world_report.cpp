@@ -3,6 +3,7 @@
 #include <tools/io/summary.hpp>
 #include <tools/io/world_records.hpp>
 #include <tools/io/world_report.hpp>
+#include <tools/io/world_technique.hpp>
 #include <tools/io/world_values.hpp>
 
 #include <algorithm>
@@ -190,7 +191,7 @@ void write_found(std::ostream& stream, const WorldAnswer& answer,
 void write_world_answer(JsonWriter& json, const WorldAnswer& answer) {
     const WorldRequest& request = *answer.request;
     json.key("query").value(name_of(request.type));
-    json.key("technique").value(to_string(Technique::cpu));
+    json.key("technique").value(to_string(answering_technique(request)));
     if (request.shape) {
         json.key("shape").value(std::string_view(answer.scene->shapes[*request.shape].name));
     }

@@ -1,6 +1,7 @@
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_members.hpp>
 #include <tools/io/number_table.hpp>
+#include <tools/io/query_request.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/values.hpp>
 #include <tools/io/world_request.hpp>
@@ -63,6 +64,9 @@ public:
         if (place_.has("except")) {
             request_.except = find_entry(scene_.instances, place_.member("except"), "instance");
         }
+        if (place_.has("technique")) {
+            request_.technique = parse_member(place_, "technique", parse_technique);
+        }
         if (place_.has("records")) {
             request_.records = place_.member("records").boolean();
         }
@@ -74,7 +78,8 @@ public:
 
 private:
     void require_members(std::initializer_list<std::string_view> own) {
-        std::vector<std::string_view> known{"query", "against", "except", "records", "values"};
+        std::vector<std::string_view> known{"query",     "against", "except",
+                                            "technique", "records", "values"};
         known.insert(known.end(), own.begin(), own.end());
         require_known_members(place_, known);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/query.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/world.hpp>
 
@@ -37,7 +38,8 @@ struct WorldRequest {
     std::optional<std::size_t> shape;      ///< of poses and sweeps: index into Scene::shapes
     std::optional<InstanceGroup> against;  ///< the instances considered; default all
     std::optional<std::size_t> except;     ///< an instance that is not: index into Scene::instances
-    bool records = true;                   ///< false: the summary only
+    Technique technique = Technique::automatic;  ///< see answering_technique()
+    bool records = true;                         ///< false: the summary only
     /// The file into which the records go, beside the scene unless it is absolute; empty: none.
     std::string values;
 
