@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace nearfield::cpu {
 namespace {
@@ -23,9 +22,6 @@ using plan::PlannedQuery;
 static_assert(grid::nearest_inside == plan::point_inside);
 static_assert(grid::FieldSolver::relative_rounding == plan::far_rounding);
 static_assert(grid::nearest_unique == plan::point_unique);
-
-/// In cells: two distances closer than this count as equal.
-constexpr double margin_in_cells = plan::uniqueness_margin / std::numbers::sqrt2;
 
 double touching_at(const DistanceFieldResult& result) {
     return records::touching_distance(result.cell, 0);
@@ -51,7 +47,7 @@ double ExactField::solve_cells(const PlannedQuery& planned, plan::SimplifiedShap
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const double cell = result.cell;
     grid::FieldGrid grid{geometry::to_vector(result.origin), cell, result.width, result.height};
-    grid::FieldOutput output{result.values, {}, cell, margin_in_cells};
+    grid::FieldOutput output{result.values, {}, cell, plan::margin_in_cells};
     const bool differences =
         query.gradients && query.gradient == GradientMethod::central_differences;
     if (differences) {
@@ -165,7 +161,7 @@ double ExactField::solve_points(const plan::Plan& plan, const PlannedQuery& plan
 std::uint32_t ExactField::word_at(const Vector& point, std::uint32_t guess, double cell) {
     const narrowphase::NearestPoint nearest = boundary_.nearest(point, guess);
     const double distance = std::sqrt(nearest.on_edge.squared_distance);
-    const double margin = std::max(margin_in_cells * cell, std::ldexp(distance, -18));
+    const double margin = std::max(plan::margin_in_cells * cell, std::ldexp(distance, -18));
     return nearest.edge | (boundary_.contains(point) ? plan::point_inside : 0U) |
            (boundary_.is_unique(point, nearest, margin) ? plan::point_unique : 0U);
 }

@@ -3,7 +3,6 @@
 #include <engine/plan/tile_batch.hpp>
 
 #include <algorithm>
-#include <numbers>
 
 namespace nearfield::plan {
 namespace {
@@ -25,8 +24,6 @@ std::uint32_t turns_of_edge(const Tile& tile, bool is_boundary, bool is_listed) 
     const std::uint32_t around = tile.width + tile.height;
     return is_listed ? 24 * around : is_boundary ? 4 * around : tile.height + 8;
 }
-
-constexpr double margin_in_cells = uniqueness_margin / std::numbers::sqrt2;
 
 TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes) {
     const double cell = tile.grid.cell;

@@ -3,11 +3,15 @@
 #include <engine/geometry/mesh.hpp>
 #include <nearfield/query.hpp>
 
+#include <numbers>
+
 namespace nearfield::plan {
 
 /// Two distances that differ by less than this fraction of d count as equal
 /// (PenetrationRecord::unique).
 inline constexpr double uniqueness_margin = 1e-3;
+/// The same in cells of the grid, whose diagonal is 2 d.
+inline constexpr double margin_in_cells = uniqueness_margin / std::numbers::sqrt2;
 
 /// Where the errors of single precision exceed this part of a cell, a search for points leaves to
 /// the CPU which of several edges is the nearest.

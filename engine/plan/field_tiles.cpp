@@ -1,7 +1,5 @@
 #include <engine/plan/field_tiles.hpp>
 
-#include <numbers>
-
 namespace nearfield::plan {
 namespace {
 
@@ -56,7 +54,7 @@ ShapeInTileData add_field_tile(const PlannedQuery& query, const Tile& tile, std:
     const bool own_edges = first_feature != not_asked || query.field().point_count > 0;
     data.b = shapes.see(*query.b, query.pose_b, tile, own_edges ? 0.0 : query.budget.simplification,
                         mask);
-    data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
+    data.margin = static_cast<float>(margin_in_cells);
     data.first_region = work.regions;
     data.first_quarter = work.quarters;
     data.first_block = work.blocks;

@@ -2,7 +2,6 @@
 #include <engine/plan/shapes_in_tiles.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace nearfield::plan {
 namespace {
@@ -35,8 +34,7 @@ ShapeInTileData ShapesInTiles::see(const geometry::Polygon& polygon, const Pose&
     data.mask = mask;
     // Where single precision selects edges it errs by at most 2^-20 of the coordinates.
     const double extent = 2.0 * polygon.radius() / cell + offset.norm() + tile.width + tile.height;
-    const double margin = uniqueness_margin / std::numbers::sqrt2;
-    data.slack = rounded_up(2.0 * (std::ldexp(extent, -20) + margin + 0.01));
+    data.slack = rounded_up(2.0 * (std::ldexp(extent, -20) + margin_in_cells + 0.01));
     return data;
 }
 

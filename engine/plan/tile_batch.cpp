@@ -309,7 +309,7 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
     // its distance and the fill; the rest is for rounding.
     data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification + mesh_error +
                                       2.0 * grid_.largest_move() + 0.01);
-    data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
+    data.margin = static_cast<float>(margin_in_cells);
     data.outside = tile.kind == TileKind::points && query.points().outside ? 1 : 0;
 }
 
