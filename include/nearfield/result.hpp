@@ -138,8 +138,10 @@ enum class Side : std::uint8_t {
 
 /// A point of one boundary that is close to the other boundary.
 struct ContactRecord {
-    Vector2 point;          ///< on the boundary of the shape `on`
-    Vector2 normal;         ///< unit normal of B's boundary there, points out of B
+    Vector2 point;  ///< on the boundary of the shape `on`
+    /// Unit normal of B's boundary, points out of B: for a point of A, the way in which B's signed
+    /// distance grows; for one of B, or within rounding (or 2^-15 cells) of it, that of the edge.
+    Vector2 normal;
     double distance = 0.0;  ///< from `point` to `nearest`, >= 0
     Vector2 nearest;        ///< the nearest point of the other shape's boundary
     Feature feature;        ///< of the other shape: where `nearest` lies
@@ -259,8 +261,7 @@ enum class ImpactState : std::uint8_t {
 /// What a TimeOfImpactResult states besides its summary.
 struct TimeOfImpactValues {
     ImpactState state = ImpactState::separated;  ///< the outcome
-    /// The shapes do not touch before this time: 0 if they touch at the start, 1 if they never
-    /// touch.
+    /// They do not touch before this time: 0 if they touch at the start, 1 if they never touch.
     double time = 0.0;
     /// Hit: they touch no later than `time` plus this, which respects the tolerance and the time
     /// bound of the query. Bound not reached: the rest of the motion, in which a contact may be
@@ -353,8 +354,7 @@ using AnyResult =
                  ClosestPointResult, SeparationResult, IntersectionTestResult, TimeOfImpactResult,
                  SeparationVectorResult, ContainmentResult>;
 
-/// The results of one batch, in the order of its queries. Reusing the object from frame to frame
-/// keeps its memory.
+/// The results of one batch, in the order of its queries. The object keeps its memory when reused.
 struct Results {
     std::vector<AnyResult> results;  ///< one per query, in order
     Timings timings;                 ///< of the batch as a whole
