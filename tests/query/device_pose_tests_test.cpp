@@ -108,17 +108,11 @@ TEST_F(DevicePoseTestsOfWorld, AmongTilesThatTouch) {
 TEST_F(DevicePoseTestsOfWorld, ConsiderFilters) {
     DevicePoseTests tests;
     Random random(seed + 5000);
-    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
-    std::vector<InstanceHandle> added;
-    for (int i = 0; i < 40; ++i) {
-        added.push_back(add(square, any_pose(random, 8.0)));
-        const auto bits = static_cast<std::uint32_t>(1 << random.whole(0, 2));
-        ASSERT_TRUE(world().set_filter(added.back(), bits, 7 - bits).ok());
-    }
-    for (std::uint32_t bits = 0; bits < 8; ++bits) {
-        const WorldFilter filter{.category = 7 - bits / 2, .mask = bits, .ignored = added[bits]};
-        compare_poses(tests, {square, filter}, some_poses(random, 200, 8.0));
-    }
+    consider_filters(random, [&](ShapeHandle square, const WorldFilter& filter) {
+        const std::size_t hits =
+            compare_poses(tests, {square, filter}, some_poses(random, 200, 8.0));
+        EXPECT_LT(hits, 150U);
+    });
 }
 
 TEST_F(DevicePoseTestsOfWorld, OfSmallWorldsAndRefusals) {

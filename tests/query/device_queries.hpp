@@ -107,6 +107,24 @@ protected:
         return added;
     }
 
+    /// Squares in several categories; `compare(square, filter)` asks about those that filters
+    /// consider.
+    template <class Compare>
+    std::vector<InstanceHandle> consider_filters(Random& random, const Compare& compare) {
+        const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+        std::vector<InstanceHandle> added;
+        for (int i = 0; i < 100; ++i) {
+            added.push_back(add(square, any_pose(random, 7.0)));
+            const auto bits = static_cast<std::uint32_t>(1 << random.whole(0, 2));
+            EXPECT_TRUE(world().set_filter(added.back(), bits, 7 - bits).ok());
+        }
+        for (std::uint32_t bits = 0; bits < 8; ++bits) {
+            compare(square,
+                    WorldFilter{.category = 7 - bits / 2, .mask = bits, .ignored = added[bits]});
+        }
+        return added;
+    }
+
     /// Squares of side 1 that share edges and vertices, from (0, 0) to (6, 6), with tiny holes in
     /// some; one of them twice; and needles along some of their edges.
     std::vector<InstanceHandle> add_tiles(const Vector2& at = {}) {

@@ -102,19 +102,11 @@ TEST_F(DeviceRaysOfWorld, PastVertices) {
 TEST_F(DeviceRaysOfWorld, ConsiderFilters) {
     DeviceRays rays;
     Random random(seed + 5000);
-    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
-    std::vector<InstanceHandle> added;
-    for (int i = 0; i < 100; ++i) {
-        added.push_back(add(square, any_pose(random, 6.0)));
-        const auto bits = static_cast<std::uint32_t>(1 << random.whole(0, 2));
-        ASSERT_TRUE(world().set_filter(added.back(), bits, 7 - bits).ok());
-    }
-    for (std::uint32_t bits = 0; bits < 8; ++bits) {
-        const WorldFilter filter{.category = 7 - bits / 2, .mask = bits, .ignored = added[bits]};
+    const auto added = consider_filters(random, [&](ShapeHandle, const WorldFilter& filter) {
         compare(rays, some_segments(random, 200, 8.0), filter);
         // Two of them may be left to the CPU, which has to ignore the same instance.
         compare(rays, segments_of_tiles(random, 50), filter);
-    }
+    });
     ASSERT_TRUE(world().remove(added[3]).ok());
     compare(rays, some_segments(random, 200, 8.0), {.ignored = added[3]});
 }
