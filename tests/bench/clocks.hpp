@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <ctime>
 #include <stdexcept>
@@ -16,6 +17,12 @@ inline double processor_milliseconds(clockid_t of = CLOCK_THREAD_CPUTIME_ID) {
         throw std::runtime_error("no processor time");
     }
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+inline double wall_milliseconds() {
+    return std::chrono::duration<double, std::milli>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 /// Of an even number the greater of the two in the middle. Precondition: there is one.

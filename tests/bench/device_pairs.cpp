@@ -4,79 +4,35 @@
 #include <nearfield/nearfield.hpp>
 
 #include <tests/bench/clocks.hpp>
+#include <tests/bench/crowd.hpp>
 #include <tests/bench/take.hpp>
-#include <tests/support/polygons.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace {
 
+using nearfield::bench::Crowd;
 using nearfield::bench::median;
 using nearfield::bench::processor_milliseconds;
 using nearfield::bench::require;
 using nearfield::bench::take;
+using nearfield::bench::wall_milliseconds;
 
 using nearfield::ContactQuery;
 using nearfield::Context;
 using nearfield::DevicePairTable;
-using nearfield::InstanceHandle;
 using nearfield::IntersectionTestQuery;
 using nearfield::PairRow;
 using nearfield::PairTable;
 using nearfield::PenetrationPoints;
 using nearfield::PenetrationQuery;
-using nearfield::Pose;
 using nearfield::SeparationQuery;
-using nearfield::World;
-
-double wall_milliseconds() {
-    return std::chrono::duration<double, std::milli>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
-/// Stars of 50 vertices and radius 1, scattered over a square, all of which move.
-class Crowd {
-public:
-    Crowd(Context& context, std::uint32_t count, double side)
-        : world_(take(World::create(context))) {
-        nearfield::test::Random random(count);
-        std::vector<nearfield::ShapeHandle> shapes;
-        shapes.reserve(20);
-        for (int i = 0; i < 20; ++i) {
-            shapes.push_back(take(context.add_shape(nearfield::test::star(random, 50, 0.5))));
-        }
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const Pose pose{{random.between(0.0, side), random.between(0.0, side)},
-                            random.between(0.0, 6.0)};
-            handles_.push_back(take(world_.add({.shape = shapes[i % 20], .pose = pose})));
-            poses_.push_back(pose);
-        }
-    }
-
-    World& world() { return world_; }
-    void move() {
-        for (Pose& pose : poses_) {
-            pose.translation.x += 1e-3;
-            pose.angle += 1e-3;
-        }
-        require(world_.move(handles_, poses_));
-    }
-
-private:
-    World world_;
-    std::vector<InstanceHandle> handles_;
-    std::vector<Pose> poses_;
-};
 
 struct Times {
     double move = 0.0;  // of the CPU, as all that follow but `whole`

@@ -5,10 +5,10 @@
 #include <nearfield/nearfield.hpp>
 
 #include <tests/bench/clocks.hpp>
+#include <tests/bench/crowd.hpp>
 #include <tests/bench/take.hpp>
 #include <tests/support/polygons.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -19,14 +19,15 @@
 
 namespace {
 
+using nearfield::bench::Crowd;
 using nearfield::bench::median;
 using nearfield::bench::require;
 using nearfield::bench::take;
+using nearfield::bench::wall_milliseconds;
 
 using nearfield::Context;
 using nearfield::DeviceNearest;
 using nearfield::DeviceRays;
-using nearfield::InstanceHandle;
 using nearfield::NearestHit;
 using nearfield::NearestQuery;
 using nearfield::Pose;
@@ -35,68 +36,24 @@ using nearfield::Segment;
 using nearfield::Vector2;
 using nearfield::World;
 
-double wall_milliseconds() {
-    return std::chrono::duration<double, std::milli>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
+std::vector<Vector2> points_of(Crowd& crowd, std::size_t count) {
+    std::vector<Vector2> points;
+    while (points.size() < count) {
+        points.push_back(crowd.place());
+    }
+    return points;
 }
 
-/// Stars of 50 vertices and radius 1, scattered over a square, and what is asked about them.
-class Crowd {
-public:
-    Crowd(Context& context, std::uint32_t count, double side)
-        : random_(count), side_(side), world_(take(World::create(context))) {
-        std::vector<nearfield::ShapeHandle> shapes;
-        shapes.reserve(20);
-        for (int i = 0; i < 20; ++i) {
-            shapes.push_back(take(context.add_shape(nearfield::test::star(random_, 50, 0.5))));
-        }
-        shape_ = take(context.add_shape(
-            nearfield::test::scaled_and_moved(nearfield::test::star(random_, 20, 0.5), 0.3, {})));
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const Pose pose{place(), random_.between(0.0, 6.0)};
-            handles_.push_back(take(world_.add({.shape = shapes[i % 20], .pose = pose})));
-            poses_.push_back(pose);
-        }
+std::vector<Segment> segments_of(Crowd& crowd, std::size_t count, double length) {
+    std::vector<Segment> segments;
+    while (segments.size() < count) {
+        const Vector2 from = crowd.place();
+        const double angle = crowd.random().between(0.0, 6.3);
+        segments.push_back(
+            {from, {from.x + length * std::cos(angle), from.y + length * std::sin(angle)}});
     }
-
-    World& world() { return world_; }
-    [[nodiscard]] nearfield::ShapeHandle shape() const { return shape_; }
-    void move() {
-        for (Pose& pose : poses_) {
-            pose.translation.x += 1e-3;
-            pose.angle += 1e-3;
-        }
-        require(world_.move(handles_, poses_));
-    }
-    std::vector<Vector2> points(std::size_t count) {
-        std::vector<Vector2> points;
-        while (points.size() < count) {
-            points.push_back(place());
-        }
-        return points;
-    }
-    std::vector<Segment> segments(std::size_t count, double length) {
-        std::vector<Segment> segments;
-        while (segments.size() < count) {
-            const Vector2 from = place();
-            const double angle = random_.between(0.0, 6.3);
-            segments.push_back(
-                {from, {from.x + length * std::cos(angle), from.y + length * std::sin(angle)}});
-        }
-        return segments;
-    }
-
-private:
-    Vector2 place() { return {random_.between(0.0, side_), random_.between(0.0, side_)}; }
-
-    nearfield::test::Random random_;
-    double side_;
-    World world_;
-    nearfield::ShapeHandle shape_;
-    std::vector<InstanceHandle> handles_;
-    std::vector<Pose> poses_;
-};
+    return segments;
+}
 
 /// The median time of a call, after the instances have moved if they do.
 template <class Call>
@@ -140,6 +97,8 @@ void compare(Crowd& crowd, const char* kind, std::size_t count, bool moves, cons
 void compare_all(Context& context, std::uint32_t instances, double side) {
     Crowd crowd(context, instances, side);
     World& world = crowd.world();
+    const nearfield::ShapeHandle robot = take(context.add_shape(nearfield::test::scaled_and_moved(
+        nearfield::test::star(crowd.random(), 20, 0.5), 0.3, {})));
     DeviceRays rays;
     DeviceNearest nearest;
     nearfield::DevicePoseTests tests;
@@ -147,20 +106,20 @@ void compare_all(Context& context, std::uint32_t instances, double side) {
         for (const bool moves : {false, true}) {
             std::vector<RayHit> hits(count);
             for (const double length : {3.0, 30.0}) {
-                const std::vector<Segment> segments = crowd.segments(count, length);
+                const std::vector<Segment> segments = segments_of(crowd, count, length);
                 compare(
                     crowd, length < 10.0 ? "rays of 3" : "rays of 30", count, moves, rays,
                     [&] { return world.cast_rays(rays, segments, hits); },
                     [&] { return world.cast_rays(segments, hits); });
             }
-            const std::vector<Vector2> points = crowd.points(count);
+            const std::vector<Vector2> points = points_of(crowd, count);
             std::vector<NearestHit> found(count);
             std::vector<Pose> poses;
             for (const Vector2& point : points) {
                 poses.push_back({point, 17.0 * point.x});
             }
             std::vector<std::uint8_t> meets(count);
-            const nearfield::PoseTestQuery test{.shape = crowd.shape()};
+            const nearfield::PoseTestQuery test{.shape = robot};
             compare(
                 crowd, "poses", count, moves, tests,
                 [&] { return world.test_poses(tests, test, poses, meets); },
