@@ -1,4 +1,5 @@
 #include <tools/cli/open_context.hpp>
+#include <tools/common/device_pair_runner.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/io/world_technique.hpp>
 
@@ -12,7 +13,9 @@ AskedTechniques techniques_of(const Scene& scene) {
         if (!query.problem.empty()) {
             continue;
         }
-        if (!query.world) {
+        if (is_for_device_pairs(query)) {
+            asked.add(Technique::compute);
+        } else if (!query.world) {
             asked.add(query.request);
         } else if (technique_problem(*query.world).empty()) {
             asked.add(answering_technique(*query.world));

@@ -56,7 +56,7 @@ bool come_within(const Rectangle& a, const Rectangle& b, double reach) {
 }  // namespace
 
 /// The instances of two groups. Those of both may stand on either side of a pair.
-SceneRunner::Selection SceneRunner::select(const GroupPair& groups) const {
+PairSelection SceneRunner::select(const GroupPair& groups) const {
     std::map<std::size_t, unsigned> sides;
     for (const std::size_t instance : groups.first.instances) {
         sides[instance] |= 1U;
@@ -64,7 +64,7 @@ SceneRunner::Selection SceneRunner::select(const GroupPair& groups) const {
     for (const std::size_t instance : groups.second.instances) {
         sides[instance] |= 2U;
     }
-    Selection selection;
+    PairSelection selection;
     std::vector<std::size_t> named;
     for (const auto& [instance, side] : sides) {
         named.push_back(instance);
@@ -99,7 +99,7 @@ void SceneRunner::add_pair(std::size_t query) {
 
 /// Both orders of a pair, or the one whose first instance is of the first group, unless the groups
 /// do not form this pair.
-void SceneRunner::add_selected(std::size_t query, const Selection& among, InstancePair pair) {
+void SceneRunner::add_selected(std::size_t query, const PairSelection& among, InstancePair pair) {
     const unsigned side_a = among.sides[pair.first];
     const unsigned side_b = among.sides[pair.second];
     const bool is_forward = (side_a & 1U) != 0 && (side_b & 2U) != 0;
@@ -117,7 +117,7 @@ void SceneRunner::add_selected(std::size_t query, const Selection& among, Instan
     }
 }
 
-void SceneRunner::add_moving_pairs(std::size_t query, const Selection& among) {
+void SceneRunner::add_moving_pairs(std::size_t query, const PairSelection& among) {
     const double reach = scene_.queries[query].request.contact_distance.value_or(0.0);
     std::vector<Rectangle> boxes;
     for (const std::size_t index : among.sound) {
@@ -133,26 +133,38 @@ void SceneRunner::add_moving_pairs(std::size_t query, const Selection& among) {
     }
 }
 
-void SceneRunner::add_all_pairs(std::size_t query) {
+/// Those whose boxes come within the query's reach.
+void SceneRunner::add_near_pairs(std::size_t query, const PairSelection& among) {
     const SceneQuery& all = scene_.queries[query];
     const QueryRequest& request = all.request;
-    const Selection& among = all.between ? between_.at(query) : all_;
-    if (request.type == QueryType::time_of_impact) {
+    const double reach = request.type == QueryType::contacts
+                             ? request.contact_distance.value_or(request.tolerance)
+                             : all.reach;
+    const auto pairs = context_.find_pairs(among.instances, reach);
+    if (!pairs.has_value() && bad_ == BadEntries::recorded) {
+        refuse({query, Entry::all, Entry::all},
+               place_of(query) + ": " + full_message(pairs.error()));
+        return;
+    }
+    require(pairs.error(), file_);
+    for (const InstancePair& pair : *pairs) {
+        add_selected(query, among, pair);
+    }
+}
+
+const PairSelection& SceneRunner::selection_of(std::size_t query) const {
+    return scene_.queries[query].between ? between_.at(query) : all_;
+}
+
+void SceneRunner::add_all_pairs(std::size_t query) {
+    const PairSelection& among = selection_of(query);
+    if (tables_.contains(query)) {
+        add_pending({.query = query, .a = Entry::all, .b = Entry::all, .is_table = true},
+                    Technique::compute);
+    } else if (scene_.queries[query].request.type == QueryType::time_of_impact) {
         add_moving_pairs(query, among);
     } else {
-        const double reach = request.type == QueryType::contacts
-                                 ? request.contact_distance.value_or(request.tolerance)
-                                 : all.reach;
-        const auto pairs = context_.find_pairs(among.instances, reach);
-        if (!pairs.has_value() && bad_ == BadEntries::recorded) {
-            refuse({query, Entry::all, Entry::all},
-                   place_of(query) + ": " + full_message(pairs.error()));
-            return;
-        }
-        require(pairs.error(), file_);
-        for (const InstancePair& pair : *pairs) {
-            add_selected(query, among, pair);
-        }
+        add_near_pairs(query, among);
     }
     if (!among.names_of_bad.empty()) {
         refuse({.query = query, .a = Entry::all, .b = Entry::all, .is_dependent = true},

@@ -58,6 +58,9 @@ SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context,
             between_.emplace(query, select(*asked.between));
         }
         has_world_queries |= asked.problem.empty() && asked.world;
+        if (asked.problem.empty() && is_for_device_pairs(asked)) {
+            tables_.try_emplace(query, asked.request, context_, selection_of(query));
+        }
     }
     if (has_world_queries) {
         worlds_.emplace(scene_, context_, shapes_, instances_, all_.sound);
@@ -127,7 +130,7 @@ double SceneRunner::run_frame(FrameInput input) {
         add_queries();
     }
     require(context_.run(batch_, results_), file_);
-    answer_world_queries({});
+    answer_pending({});
     const auto end = std::chrono::steady_clock::now();
     return std::chrono::duration<double, std::milli>(end - start).count();
 }
@@ -141,7 +144,7 @@ void SceneRunner::run_what_fits(const Limits& limits) {
     } else {
         require(status, file_);
     }
-    answer_world_queries(limits);
+    answer_pending(limits);
 }
 
 void SceneRunner::update_shapes() {
@@ -166,7 +169,7 @@ void SceneRunner::move_instances() {
         }
         return pose;
     };
-    const auto move = [&](Selection& selection) {
+    const auto move = [&](PairSelection& selection) {
         for (std::size_t i = 0; i < selection.sound.size(); ++i) {
             selection.instances[i].pose = pose_of(selection.sound[i]);
         }
@@ -202,7 +205,7 @@ void SceneRunner::add_queries() {
 void SceneRunner::answer_one_by_one(const Limits& limits) {
     Results all;
     for (const Entry& entry : entries_) {
-        if (entry.is_refused || entry.is_world) {
+        if (!is_of_batch(entry)) {
             continue;
         }
         Batch batch;
@@ -261,7 +264,14 @@ void SceneRunner::refuse(Entry entry, const std::string& reason) {
     entries_.push_back(entry);
 }
 
-/// A query of all instances, which is answered after the batch.
+void SceneRunner::add_pending(Entry entry, Technique technique) {
+    entry.result = outside_batch_.size();
+    IntersectionTestResult pending;
+    pending.technique = technique;
+    outside_batch_.emplace_back(std::move(pending));
+    entries_.push_back(entry);
+}
+
 void SceneRunner::add_world_query(std::size_t query) {
     const WorldRequest& request = *scene_.queries[query].world;
     const Entry nobody{.query = query, .a = Entry::all, .b = Entry::all};
@@ -276,12 +286,8 @@ void SceneRunner::add_world_query(std::size_t query) {
         return;
     }
     Entry entry = nobody;
-    entry.result = outside_batch_.size();
     entry.is_world = true;
-    IntersectionTestResult pending;
-    pending.technique = answering_technique(request);
-    outside_batch_.emplace_back(std::move(pending));
-    entries_.push_back(entry);
+    add_pending(entry, answering_technique(request));
     std::vector<std::size_t> considered =
         request.against ? request.against->instances : all_instances();
     if (request.except) {
@@ -294,18 +300,21 @@ void SceneRunner::add_world_query(std::size_t query) {
     }
 }
 
-void SceneRunner::answer_world_queries(const Limits& limits) {
-    if (!worlds_) {
+void SceneRunner::answer_pending(const Limits& limits) {
+    if (!worlds_ && tables_.empty()) {
         return;
     }
     const auto start = std::chrono::steady_clock::now();
     Timings& timings = results_.timings;
     const double before = timings.total;
     for (const Entry& entry : entries_) {
-        if (!entry.is_world) {
+        if (!entry.is_world && !entry.is_table) {
             continue;
         }
-        const Status status = worlds_->answer(entry.query, limits, timings);
+        const Status status =
+            entry.is_world ? worlds_->answer(entry.query, limits, timings)
+                           : tables_.at(entry.query)
+                                 .answer(selection_of(entry.query).instances, limits, timings);
         std::visit([&status](auto& result) { result.status = status; },
                    outside_batch_[entry.result]);
     }

@@ -2,6 +2,7 @@
 
 #include <nearfield/context.hpp>
 
+#include <tools/common/device_pair_runner.hpp>
 #include <tools/common/world_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/scene.hpp>
@@ -76,7 +77,7 @@ public:
     /// The number of queries in the last frame, counting every pair of "all pairs".
     [[nodiscard]] std::size_t query_count() const noexcept { return entries_.size(); }
     /// The number of pairs that the last frame asked about: once for each query of each pair.
-    [[nodiscard]] std::size_t pair_count() const noexcept { return batch_.queries().size(); }
+    [[nodiscard]] std::size_t pair_count() const;
     /// The number of poses, points, segments, sweeps and rectangles that it asked about.
     [[nodiscard]] std::size_t world_input_count() const;
     [[nodiscard]] const Timings& timings() const noexcept { return results_.timings; }
@@ -92,18 +93,12 @@ private:
         bool is_refused = false;  ///< before the batch
         bool is_dependent = false;
         bool is_world = false;  ///< a query of all instances
-    };
-    /// The instances between which a query of all pairs forms pairs.
-    struct Selection {
-        std::vector<std::size_t> sound;   ///< indices into Scene::instances, ascending
-        std::vector<Instance> instances;  ///< the same
-        std::vector<unsigned> sides;      ///< of each: 1 in the first group, 2 in the second
-        std::string names_of_bad;         ///< those that cannot be used
+        bool is_table = false;  ///< of all pairs, found by the device
     };
 
     void add_shapes();
     void add_instances();
-    [[nodiscard]] Selection select(const GroupPair& groups) const;
+    [[nodiscard]] PairSelection select(const GroupPair& groups) const;
     void update_shapes();
     /// Gives every instance of a pair another pose, next to the scene's own, or that one again.
     void move_instances();
@@ -114,15 +109,24 @@ private:
     void add_pair(std::size_t query);
     void add_all_pairs(std::size_t query);
     /// For time-of-impact queries.
-    void add_moving_pairs(std::size_t query, const Selection& among);
-    void add_selected(std::size_t query, const Selection& among, InstancePair pair);
+    void add_moving_pairs(std::size_t query, const PairSelection& among);
+    void add_near_pairs(std::size_t query, const PairSelection& among);
+    void add_selected(std::size_t query, const PairSelection& among, InstancePair pair);
     void add_world_query(std::size_t query);
-    void answer_world_queries(const Limits& limits);
+    /// An entry of all pairs or instances that is answered after the batch.
+    void add_pending(Entry entry, Technique technique);
+    void answer_pending(const Limits& limits);
+    [[nodiscard]] const PairSelection& selection_of(std::size_t query) const;
+    [[nodiscard]] SceneAnswer answer_of(const Entry& entry) const;
+    template <class Action>
+    void for_each_status(const Action& action) const;
     void answer_one_by_one(const Limits& limits);
+    [[nodiscard]] static bool is_of_batch(const Entry& entry) {
+        return !entry.is_refused && !entry.is_world && !entry.is_table;
+    }
     [[nodiscard]] const AnyResult& result_of(const Entry& entry) const;
     /// Null if there is none.
     [[nodiscard]] const QueryTime* time_of(const Entry& entry) const;
-    [[nodiscard]] bool is_cancelled(const Entry& entry) const;
     [[nodiscard]] bool is_usable(std::size_t instance) const;
     /// "lid (shapes.box), left": with the shape where that is what is wrong.
     [[nodiscard]] std::string names_of_bad(const std::vector<std::size_t>& instances) const;
@@ -136,14 +140,15 @@ private:
     BadEntries bad_;
     std::vector<ShapeHandle> shapes_;  ///< the default handle for a bad one
     std::vector<Instance> instances_;
-    std::vector<std::string> shape_problems_;     ///< empty for those that can be used
-    std::vector<std::string> instance_problems_;  ///< likewise
-    bool is_moved_ = false;                       ///< see move_instances()
-    Selection all_;                               ///< all instances that can be used
-    std::map<std::size_t, Selection> between_;    ///< by query, for pairs between groups
-    std::optional<WorldRunner> worlds_;           ///< if there are queries of all instances
+    std::vector<std::string> shape_problems_;         ///< empty for those that can be used
+    std::vector<std::string> instance_problems_;      ///< likewise
+    bool is_moved_ = false;                           ///< see move_instances()
+    PairSelection all_;                               ///< all instances that can be used
+    std::map<std::size_t, PairSelection> between_;    ///< by query, for pairs between groups
+    std::optional<WorldRunner> worlds_;               ///< if there are queries of all instances
+    std::map<std::size_t, DevicePairRunner> tables_;  ///< by query, if the device finds the pairs
     std::vector<Entry> entries_;
-    std::vector<AnyResult> outside_batch_;  ///< of refused queries and those of all instances
+    std::vector<AnyResult> outside_batch_;  ///< of what is refused, or answered after the batch
     Batch batch_;
     Results results_;
 };

@@ -1,8 +1,7 @@
 // Queries of all instances by the device: the same answers as those of the CPU.
 
 #include <gtest/gtest.h>
-#include <tests/support/polygons.hpp>
-#include <tools/common/scene_runner.hpp>
+#include <tests/unit/common/device_scene_test.hpp>
 #include <tools/io/json_writer.hpp>
 #include <tools/io/world_report.hpp>
 
@@ -17,39 +16,8 @@
 namespace nearfield::tools {
 namespace {
 
-using test::Random;
-
-class DeviceScenes : public testing::Test {
+class DeviceScenes : public DeviceSceneTest {
 protected:
-    void SetUp() override {
-        Settings settings;
-        settings.techniques = {.raster = false, .compute = true};
-        settings.pipelines_on_demand = true;
-        settings.memory_limit = memory_limit_;
-        Expected<Context> context = Context::create_headless({}, settings);
-        ASSERT_TRUE(context.has_value()) << context.error().text();
-        context_.emplace(std::move(*context));
-    }
-
-    static Pose any_pose(Random& random) {
-        return {{random.between(-6.0, 6.0), random.between(-6.0, 6.0)}, random.between(-4.0, 4.0)};
-    }
-
-    /// Stars at random poses, every eighth one more than once.
-    static Scene random_scene(Random& random, std::size_t instances) {
-        Scene scene;
-        for (int i = 0; i < 4; ++i) {
-            scene.shapes.push_back({.name = "star" + std::to_string(i),
-                                    .rings = test::star(random, random.whole(3, 60), 0.3)});
-        }
-        for (std::size_t i = 0; i < instances; ++i) {
-            scene.instances.push_back({.name = std::to_string(100 + i), .shape = i % 4});
-            scene.instances.back().pose =
-                i % 8 == 7 ? scene.instances[i - 4].pose : any_pose(random);
-        }
-        return scene;
-    }
-
     /// One query of each kind that the device answers.
     static void add_queries(Random& random, std::size_t count,
                             const std::optional<InstanceGroup>& against,
@@ -101,7 +69,7 @@ protected:
     }
 
     std::vector<std::string> records_of(const Scene& scene, FrameInput input, int frames) {
-        SceneRunner runner(scene, "scene", *context_);
+        SceneRunner runner(scene, "scene", context());
         static_cast<void>(runner.run_frame(FrameInput::all));
         for (int frame = 1; frame < frames; ++frame) {
             static_cast<void>(runner.run_frame(input));
@@ -129,9 +97,6 @@ protected:
         EXPECT_NE(place, std::string::npos) << text;
         return text.erase(place, technique.size() + 2);
     }
-
-    std::uint64_t memory_limit_ = Settings().memory_limit;
-    std::optional<Context> context_;
 };
 
 TEST_F(DeviceScenes, AnswersAreThoseOfTheCpu) {
@@ -171,7 +136,7 @@ TEST_F(DeviceScenes, SeveralWorldsAreThoseOfTheCpu) {
 
 class DeviceScenesWithLittleMemory : public DeviceScenes {
 protected:
-    DeviceScenesWithLittleMemory() { memory_limit_ = std::uint64_t{1} << 16U; }
+    DeviceScenesWithLittleMemory() { limit_memory(std::uint64_t{1} << 16U); }
 };
 
 TEST_F(DeviceScenesWithLittleMemory, ManyInputsAreAskedInParts) {
