@@ -4,6 +4,7 @@
 #include <tools/io/values.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 
 namespace nearfield::tools {
@@ -25,6 +26,23 @@ std::optional<std::string_view> namespace_of(const pugi::xml_node& node, std::st
         }
     }
     return std::nullopt;
+}
+
+/// "a b" of "a%20b". A percent sign without two hexadecimal digits stays.
+std::string percent_decoded(std::string_view text) {
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned value = 0;
+        const char* const digits = text.data() + i + 1;
+        if (text[i] == '%' && i + 2 < text.size() &&
+            std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+            decoded += static_cast<char>(value);
+            i += 2;
+        } else {
+            decoded += text[i];
+        }
+    }
+    return decoded;
 }
 
 }  // namespace
@@ -126,6 +144,13 @@ void SvgDocument::add_style_sheet(const pugi::xml_node& style) {
 pugi::xml_node SvgDocument::find(std::string_view id) const {
     const auto found = ids_.find(id);
     return found == ids_.end() ? pugi::xml_node() : found->second;
+}
+
+pugi::xml_node SvgDocument::find_reference(std::string_view fragment) const {
+    if (const pugi::xml_node found = find(fragment)) {
+        return found;
+    }
+    return find(percent_decoded(fragment));
 }
 
 std::optional<SvgText> SvgDocument::attribute(const pugi::xml_node& node, const char* name) const {

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
     /// The first element with an id; a null node if there is none.
     [[nodiscard]] pugi::xml_node find(std::string_view id) const;
+    /// The element that the fragment of a reference names: as it stands, or percent-decoded.
+    [[nodiscard]] pugi::xml_node find_reference(std::string_view fragment) const;
 
     /// Throws InputError with the place and the name of an element.
     [[noreturn]] void fail(const pugi::xml_node& node, const std::string& reason) const;

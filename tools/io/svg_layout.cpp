@@ -169,6 +169,7 @@ private:
     std::size_t add_shape(const pugi::xml_node& content, const SvgState& state,
                           const AffineMap& rest, Draw draw) {
         SvgState own = state;
+        own.canvas.reset();  // a shape may have several places
         own.map = combine(svg_to_world, are_equal(rest, AffineMap()) ? AffineMap() : rest);
         SvgDrawing drawing;
         draw(own, drawing);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <system_error>
 
 namespace nearfield::tools {
 namespace {
@@ -33,6 +35,27 @@ constexpr std::array<std::string_view, 24> geometry_properties{"fill-rule",
                                                                "zoom",
                                                                "offset-path",
                                                                "content-visibility"};
+
+/// Those that are lengths.
+constexpr std::array<std::string_view, 9> lengths{"x",  "y",  "cx",    "cy",    "r",
+                                                  "rx", "ry", "width", "height"};
+
+/// True of a number without a unit that is not 0, which in CSS is no length.
+bool lacks_unit(std::string_view value) {
+    value.remove_prefix(value.starts_with('+') ? 1 : 0);
+    double number = 0.0;
+    const char* const end = value.data() + value.size();
+    const auto [read, error] = std::from_chars(value.data(), end, number);
+    return error == std::errc() && read == end && number != 0.0;
+}
+
+/// True of a declaration that counts: an invalid one leaves those before it as they are.
+bool is_read(const SvgDeclaration& declaration) {
+    const auto is_among = [&](const auto& names) {
+        return std::find(names.begin(), names.end(), declaration.name) != names.end();
+    };
+    return is_among(geometry_properties) && !(is_among(lengths) && lacks_unit(declaration.value));
+}
 
 std::string lower_case(std::string_view text) {
     std::string result(text);
@@ -115,8 +138,7 @@ std::vector<SvgDeclaration> parse_svg_declarations(std::string_view text) {
             declaration.value = without_spaces(declaration.value.substr(0, mark));
             declaration.important = true;
         }
-        if (std::find(geometry_properties.begin(), geometry_properties.end(), declaration.name) !=
-            geometry_properties.end()) {
+        if (is_read(declaration)) {
             declarations.push_back(std::move(declaration));
         }
     }

@@ -1,3 +1,4 @@
+#include <tools/io/svg_clip.hpp>
 #include <tools/io/svg_path.hpp>
 #include <tools/io/svg_shapes.hpp>
 #include <tools/io/svg_transform.hpp>
@@ -16,6 +17,20 @@ constexpr std::size_t most_work = 2'000'000;  // uses of uses multiply
 
 AffineMap scaling(double factor) {
     return {{factor, 0.0}, {0.0, factor}, {}};
+}
+
+/// The corners of a viewport of this size, in which the coordinates of the content are shown by
+/// `shown`, which only scales and moves, after another map of these coordinates.
+std::array<Vector2, 4> corners_of(const AffineMap& shown, const SvgViewport& size,
+                                  const AffineMap& map) {
+    const auto mapped = [&](double x, double y) {
+        return combine(translation((x - shown.origin.x) / shown.x_axis.x,
+                                   (y - shown.origin.y) / shown.y_axis.y),
+                       map)
+            .origin;
+    };
+    return {mapped(0.0, 0.0), mapped(size.width, 0.0), mapped(size.width, size.height),
+            mapped(0.0, size.height)};
 }
 
 /// Whether an element is for all who draw it: it asks for no extension, and for English if for a
@@ -42,6 +57,24 @@ bool is_meant(const pugi::xml_node& node) {
 
 }  // namespace
 
+/// The width and height of the outermost element, one of which may follow from its viewBox.
+std::optional<SvgViewport> SvgWalk::window_of(const pugi::xml_node& root,
+                                              const std::optional<SvgViewBox>& box) const {
+    // A size in percent is that of a window that is not there.
+    const auto size = [&](const char* name, SvgAxis axis) {
+        const bool is_part = document_.word(root, name).ends_with('%');
+        return is_part ? std::nullopt : svg_length(document_, root, name, axis, std::nullopt);
+    };
+    std::optional<double> width = size("width", SvgAxis::x);
+    std::optional<double> height = size("height", SvgAxis::y);
+    if (box && width && !height) {
+        height = *width * (box->viewport.height / box->viewport.width);
+    } else if (box && height && !width) {
+        width = *height * (box->viewport.width / box->viewport.height);
+    }
+    return width && height ? std::optional(SvgViewport{*width, *height}) : std::nullopt;
+}
+
 std::optional<SvgState> SvgWalk::enter_root(LengthUnit unit) const {
     const pugi::xml_node root = document_.root();
     if (!document_.word(root, "transform").empty()) {
@@ -51,32 +84,23 @@ std::optional<SvgState> SvgWalk::enter_root(LengthUnit unit) const {
     if (!state) {
         return std::nullopt;
     }
-    // A size in percent is that of a window that is not there.
-    const auto size = [&](const char* name, SvgAxis axis) {
-        const bool is_part = document_.word(root, name).ends_with('%');
-        return is_part ? std::nullopt : svg_length(document_, root, name, axis, std::nullopt);
-    };
-    std::optional<SvgViewBox> box = svg_view_box(document_, root, std::nullopt);
-    std::optional<double> width = size("width", SvgAxis::x);
-    std::optional<double> height = size("height", SvgAxis::y);
-    if (box && width && !height) {
-        height = *width * (box->viewport.height / box->viewport.width);
-    } else if (box && height && !width) {
-        width = *height * (box->viewport.width / box->viewport.height);
-    }
-    std::optional<SvgViewport> window;
-    if (width && height) {
-        window = SvgViewport{*width, *height};
-    }
-    if (unit != LengthUnit::user) {
-        box = svg_view_box(document_, root, window);
-    }
+    const bool in_user_units = unit == LengthUnit::user;
+    const std::optional<SvgViewBox> own = svg_view_box(document_, root, std::nullopt);
+    const std::optional<SvgViewport> window = window_of(root, own);
+    const bool has_area = !window || (window->width > 0.0 && window->height > 0.0);
+    const std::optional<SvgViewBox> shown =
+        has_area || !in_user_units ? svg_view_box(document_, root, window) : std::nullopt;
+    const std::optional<SvgViewBox>& box = in_user_units ? own : shown;
     state->viewport = box ? std::optional(box->viewport) : window;
-    if (unit != LengthUnit::user) {
+    if (!in_user_units) {
         const AffineMap in_pixels = box ? box->map : AffineMap();
         state->map = combine(in_pixels, scaling(1.0 / pixels_per(unit)));
     }
     state->map = combine(state->map, svg_to_world);
+    if (has_area && (shown || window)) {
+        const SvgViewBox canvas = shown.value_or(SvgViewBox());
+        state->canvas = corners_of(canvas.map, window.value_or(canvas.viewport), state->map);
+    }
     return state;
 }
 
@@ -144,11 +168,8 @@ std::vector<pugi::xml_node> SvgWalk::children_of(const pugi::xml_node& group) {
 }
 
 void SvgWalk::require_read(const pugi::xml_node& node) const {
-    for (const char* const what : {"clip-path", "mask"}) {
-        if (const std::string_view value = document_.word(node, what);
-            !value.empty() && value != "none") {
-            document_.fail(node, std::string(what) + " is not read");
-        }
+    if (!is_one_of(document_.word(node, "mask"), {"", "none"})) {
+        document_.fail(node, "mask is not read");
     }
     for (const char* const what : {"d", "translate", "rotate", "scale", "zoom", "offset-path"}) {
         const std::optional<std::string_view> value = document_.styled(node, what);
@@ -180,6 +201,10 @@ std::optional<SvgState> SvgWalk::enter(const pugi::xml_node& node, const SvgStat
     ++state.depth;
     if (std::optional<SvgText> transform = document_.property(node, "transform")) {
         state.map = combine(parse_transform(*transform), outer.map);
+    }
+    if (const std::string_view clip = document_.word(node, "clip-path");
+        !is_one_of(clip, {"", "none"}) && !keeps_canvas(document_, clip, state)) {
+        document_.fail(node, "clip-path is not read, unless it keeps the whole canvas");
     }
     const std::string_view rule = document_.word(node, "fill-rule");
     if (rule == "evenodd") {
@@ -280,7 +305,7 @@ pugi::xml_node SvgWalk::target_of(const pugi::xml_node& use) const {
         document_.fail(use, "refers to \"" + std::string(reference) +
                                 "\"; only what is in the file, as #ID, is read");
     }
-    const pugi::xml_node target = document_.find(reference.substr(1));
+    const pugi::xml_node target = document_.find_reference(reference.substr(1));
     if (!target) {
         document_.fail(
             use, "there is no element with the id \"" + std::string(reference.substr(1)) + "\"");
@@ -289,10 +314,10 @@ pugi::xml_node SvgWalk::target_of(const pugi::xml_node& use) const {
     return is_drawn ? target : pugi::xml_node();
 }
 
-SvgState SvgWalk::placed(const pugi::xml_node& use, const SvgState& state) const {
+SvgState SvgWalk::placed(const pugi::xml_node& node, const SvgState& state) const {
     SvgState moved = state;
-    const double x = svg_length(document_, use, "x", SvgAxis::x, state.viewport).value_or(0.0);
-    const double y = svg_length(document_, use, "y", SvgAxis::y, state.viewport).value_or(0.0);
+    const double x = svg_length(document_, node, "x", SvgAxis::x, state.viewport).value_or(0.0);
+    const double y = svg_length(document_, node, "y", SvgAxis::y, state.viewport).value_or(0.0);
     moved.map = combine(translation(x, y), state.map);
     return moved;
 }
@@ -322,12 +347,7 @@ SvgState SvgWalk::inside_viewport(const pugi::xml_node& node, const pugi::xml_no
         }
         return value ? value : svg_length(document_, node, name, axis, state.viewport);
     };
-    SvgState inner = state;
-    if (!use || local_name(node) == "svg") {
-        const double x = svg_length(document_, node, "x", SvgAxis::x, state.viewport).value_or(0.0);
-        const double y = svg_length(document_, node, "y", SvgAxis::y, state.viewport).value_or(0.0);
-        inner.map = combine(translation(x, y), state.map);
-    }
+    SvgState inner = placed(node, state);
     std::optional<SvgViewport> size = state.viewport;
     const std::optional<double> width = length("width", SvgAxis::x);
     const std::optional<double> height = length("height", SvgAxis::y);

@@ -4,6 +4,7 @@
 #include <tools/io/svg_document.hpp>
 #include <tools/io/svg_length.hpp>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -26,6 +27,8 @@ struct SvgState {
     FillRule rule = FillRule::nonzero;
     bool is_visible = true;
     std::optional<SvgViewport> viewport = {};
+    /// The corners of the canvas in the coordinates of the drawing, if they are known.
+    std::optional<std::array<Vector2, 4>> canvas = {};
     int depth = 0;
 };
 
@@ -56,8 +59,9 @@ public:
 
     /// What a use refers to; a null node if that draws nothing. Throws InputError.
     [[nodiscard]] pugi::xml_node target_of(const pugi::xml_node& use) const;
-    /// The state in which a use draws what it refers to, at its x and y.
-    [[nodiscard]] SvgState placed(const pugi::xml_node& use, const SvgState& state) const;
+    /// The state at the x and y of a use, which draws there what it refers to, or of an svg or
+    /// symbol element.
+    [[nodiscard]] SvgState placed(const pugi::xml_node& node, const SvgState& state) const;
     /// Adds what a use refers to; the state is that of placed().
     void draw_target(const pugi::xml_node& use, const pugi::xml_node& target, const SvgState& state,
                      SvgDrawing& drawing);
@@ -67,6 +71,8 @@ public:
                                            const SvgState& state) const;
 
 private:
+    [[nodiscard]] std::optional<SvgViewport> window_of(const pugi::xml_node& root,
+                                                       const std::optional<SvgViewBox>& box) const;
     void require_read(const pugi::xml_node& node) const;
     void count_work(const pugi::xml_node& node, std::size_t segments);
 

@@ -143,6 +143,7 @@ TEST_F(DeviceScenesWithLittleMemory, ManyInputsAreAskedInParts) {
     Random random(40);
     Scene scene = random_scene(random, 20);
     add_queries(random, 5000, std::nullopt, std::nullopt, scene);
+    compare(scene);
     compare(scene, FrameInput::poses, 2);
 }
 

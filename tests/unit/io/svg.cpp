@@ -240,7 +240,8 @@ TEST(ToolsSvg, ErrorsNameFileLineAndColumn) {
               "a.svg:1:2: svg: has no outline, only empty part (4)");
     EXPECT_EQ(svg_error("<polygon points='1 1 2'/>"),
               "a.svg:2:23: the value ends where a number is expected");
-    EXPECT_EQ(svg_error("<g clip-path='url(#c)'/>"), "a.svg:2:2: g: clip-path is not read");
+    EXPECT_EQ(svg_error("<g clip-path='url(#c)'/>"),
+              "a.svg:2:2: g: clip-path is not read, unless it keeps the whole canvas");
     EXPECT_EQ(svg_error(""), "a.svg:1:2: svg: has no outline");
     EXPECT_EQ(svg_error("<g>").rfind("a.svg:", 0), 0U);
     EXPECT_NE(svg_error("<g>").find("not XML"), std::string::npos);

@@ -112,7 +112,8 @@ TEST(ToolsSvgProperties, TransformsOfStylesHaveUnits) {
     EXPECT_EQ(error(path("transform='scale(2)' style='transform-origin:center'")),
               "a.svg:2:2: path: transform-origin is not read");
     EXPECT_EQ(error(path("style='scale:2'")), "a.svg:2:2: path: scale in a style is not read");
-    EXPECT_EQ(error(path("style='clip-path:url(#c)'")), "a.svg:2:2: path: clip-path is not read");
+    EXPECT_EQ(error(path("style='clip-path:url(#c)'")),
+              "a.svg:2:2: path: clip-path is not read, unless it keeps the whole canvas");
 }
 
 TEST(ToolsSvgProperties, UsesPlaceWhatTheyReferTo) {
@@ -138,6 +139,56 @@ TEST(ToolsSvgProperties, UsesPlaceWhatTheyReferTo) {
         file += "</g>";
     }
     EXPECT_NE(error(file).find("is drawn too often"), std::string::npos);
+}
+
+TEST(ToolsSvgProperties, ReferencesMayBePercentEncoded) {
+    const std::string defs = "<defs>" + path("id='my part'") +
+                             path("id='50%25' transform='scale(2)'") +
+                             path("id='50%' transform='scale(3)'") +
+                             path("id='\u00e4' transform='scale(4)'") + "</defs>";
+    const auto expect_use = [&](const std::string& reference, double x) {
+        expect_corner("<svg>" + defs + "<use href='" + reference + "'/></svg>", x, 0.0);
+    };
+    expect_use("#my part", 4.0);
+    expect_use("#my%20part", 4.0);
+    expect_use("#50%25", 8.0);  // as it stands comes first
+    expect_use("#50%", 12.0);
+    expect_use("#%35%30%", 12.0);
+    expect_use("#%C3%a4", 16.0);
+    EXPECT_NE(error("<use href='#my%2part'/>").find("with the id \"my%2part\""), std::string::npos);
+}
+
+TEST(ToolsSvgProperties, SymbolsHaveAPlaceOfTheirOwn) {
+    const std::string symbol = "<symbol id='s' x='1' y='2' width='16' height='16' ";
+    const std::string end = ">" + path("") + "</symbol><use href='#s' x='10' ";
+    expect_corner("<svg>" + symbol + end + "/></svg>", 15.0, -2.0);
+    expect_corner("<svg>" + symbol + "viewBox='0 0 8 8'" + end + "/></svg>", 19.0, -2.0);
+    expect_corner("<svg>" + symbol + "transform='scale(2)'" + end + "y='3'/></svg>", 20.0, -7.0);
+}
+
+/// CSS moves it about the middle of a box whose size a window decides.
+TEST(ToolsSvgProperties, ATransformOfTheOutermostElementIsRefused) {
+    for (const char* const attribute : {"transform='scale(2)'", "style='transform:scale(2)'"}) {
+        EXPECT_EQ(input_error([&] {
+                      return draw(std::string("<svg ") + attribute + ">" + path("") + "</svg>");
+                  }),
+                  "a.svg:1:2: svg: a transform of the outermost element is not read");
+    }
+}
+
+TEST(ToolsSvgProperties, LengthsOfStylesNeedAUnit) {
+    const auto expect_width = [](const std::string& attributes, double width) {
+        const SvgDrawing drawing = draw("<svg><rect height='3' " + attributes + "/></svg>");
+        EXPECT_EQ(corner(drawing).x, width) << attributes;
+    };
+    expect_width("width='5' style='width:7'", 5.0);
+    expect_width("width='5' style='width:7px'", 7.0);
+    expect_width("width='5' style='width:6px;width:7'", 6.0);
+    expect_width("width='5' style='width:+7.5e0!important'", 5.0);
+    expect_width("width='5' x='3' style='x:0;rx:0.0'", 5.0);
+    const SvgDrawing styled =
+        draw("<svg><style>.a{width:9} rect{width:8px}</style><rect class='a' height='3'/></svg>");
+    EXPECT_EQ(corner(styled).x, 8.0);
 }
 
 TEST(ToolsSvgProperties, UnitsAndViewBoxByOption) {
