@@ -1,7 +1,7 @@
 # The Vulkan drivers that tests request by name, so that none runs on an arbitrary driver: a list of
 # NAME=MANIFEST, where the manifest is the JSON file through which the loader finds a driver. All
-# tests that need a device run on the first; those of queries, the device and the graph run on the
-# others too.
+# tests that need a device run on the first; those of queries, the device, the graph and scenes run on
+# the others too.
 set(NEARFIELD_TEST_DRIVERS "" CACHE STRING
     "Vulkan drivers to test on, NAME=MANIFEST each; empty: lavapipe and SwiftShader, as Debian has them")
 

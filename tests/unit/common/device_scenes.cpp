@@ -4,6 +4,7 @@
 #include <tests/unit/common/device_scene_test.hpp>
 #include <tools/io/json_writer.hpp>
 #include <tools/io/world_report.hpp>
+#include <tools/io/world_technique.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -98,6 +99,16 @@ protected:
         return text.erase(place, technique.size() + 2);
     }
 };
+
+TEST_F(DeviceScenes, TheSceneOfTheDocumentsIsAnswered) {
+    Scene scene = read_scene(NEARFIELD_TEST_DATA "/scenes/strip.json");
+    set_technique(scene, Technique::compute);
+    std::erase_if(scene.queries, [](const SceneQuery& query) {
+        return !query.world || !technique_problem(*query.world).empty();
+    });
+    EXPECT_EQ(scene.queries.size(), 2U) << "of poses and of rays";
+    compare(scene);
+}
 
 TEST_F(DeviceScenes, AnswersAreThoseOfTheCpu) {
     for (unsigned seed = 0; seed < 8; ++seed) {
