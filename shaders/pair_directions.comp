@@ -37,14 +37,13 @@ uint rank_of(uint b, List list) {
     return rank;
 }
 
-// `touching`: see PairQueryData, in units of B's frame; negative: the CPU answers the pair.
-void write_direction(uint index, SearchDirectionData data, float touching, uint a, uint b) {
+void write_direction(uint index, SearchDirectionData data, uint a, uint b) {
     uint unit = push.directions + units_of_direction * index;
     scratch_units[unit] = floatBitsToUint(vec4(data.axis, data.offset));
     scratch_units[unit + 1u] = uvec4(data.shape_a, data.shape_b, data.parts, data.first_item);
     scratch_units[unit + 2u] =
         floatBitsToUint(vec4(data.reach, data.margin, data.rival, data.outside));
-    scratch_units[unit + 3u] = uvec4(floatBitsToUint(data.doubt), floatBitsToUint(touching), a, b);
+    scratch_units[unit + 3u] = uvec4(floatBitsToUint(data.doubt), floatBitsToUint(data.touching), a, b);
 }
 
 SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b) {
@@ -64,7 +63,8 @@ SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b
                   (query.is_test != 0u ? margin : 0.0);
     bool asks_outside = query.is_test == 0u && query.reach > 0.0;
     return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, reach, margin, rival,
-                               asks_outside ? 1.0 : 0.0, doubt, float[3](0.0, 0.0, 0.0));
+                               asks_outside ? 1.0 : 0.0, doubt, query.touching / b.unit,
+                               float[2](0.0, 0.0));
 }
 
 // Of each block of items that starts among those of a direction, its first direction.
@@ -91,9 +91,9 @@ void main() {
     SearchDirectionData data = direction_between(first, second);
     data.first_item = list.first_item + rank * chunks;
     bool left_to_cpu = (first.left_to_cpu | second.left_to_cpu) != 0u;
-    float touching = left_to_cpu ? -1.0 : pair_query().touching / second.unit;
+    data.touching = left_to_cpu ? -1.0 : data.touching;
     data.reach = left_to_cpu ? -1e30 : data.reach;  // no edge comes near
-    write_direction(list.first + rank, data, touching, a, b);
+    write_direction(list.first + rank, data, a, b);
     write_blocks(list.first + rank, data.first_item, chunks);
     scratch_units[push.frames + list.first + rank] =
         floatBitsToUint(vec4(second.unit * second.axis, second.high + second.low));

@@ -98,8 +98,7 @@ void main() {
         uint end = first_point(direction + 1u);
         vec4 lengths = uintBitsToFloat(direction_unit(direction, 2u));
         float touching = uintBitsToFloat(direction_unit(direction, 3u).y);
-        // That of the point's place, and roundings of the distance.
-        float margin = 1.5 * lengths.y;
+        float margin = depth_margins * lengths.y;
         bool is_short = end - first <= max_compared_depths;
         Depths depths = compare(first, is_short ? end : first, touching, margin);
         bool has_all = touching >= 0.0 && is_short;

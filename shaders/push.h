@@ -115,6 +115,8 @@ struct SearchPush {
     uint point_units;
     uint stage;     // that the shader counts
     uint capacity;  // of its elements
+    // 1: of some directions the number of points and the deepest alone are asked for
+    uint summarizes;
     // Where the device finds the pairs: `items` and `direction_count` are not known, `directions`
     // and what follows are in the scratch memory.
     uint second_capacity;   // of items, where pairs are counted

@@ -39,10 +39,10 @@ SearchDirectionData direction_at(uint index) {
     vec4 place = uintBitsToFloat(direction_unit(index, 0u));
     uvec4 shapes = direction_unit(index, 1u);
     vec4 lengths = uintBitsToFloat(direction_unit(index, 2u));
+    vec4 rest = uintBitsToFloat(direction_unit(index, 3u));
     return SearchDirectionData(place.xy, place.zw, shapes.x, shapes.y, shapes.z, shapes.w,
-                               lengths.x, lengths.y, lengths.z, lengths.w,
-                               uintBitsToFloat(direction_unit(index, 3u).x),
-                               float[3](0.0, 0.0, 0.0));
+                               lengths.x, lengths.y, lengths.z, lengths.w, rest.x, rest.y,
+                               float[2](0.0, 0.0));
 }
 
 // The direction of the first item of a block.

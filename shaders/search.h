@@ -66,19 +66,30 @@ struct SearchDirectionData {
     float rival NEARFIELD_DEFAULT(0.0F);
     float outside NEARFIELD_DEFAULT(0.0F);  // 1: points outside B are asked for as well
     float doubt NEARFIELD_DEFAULT(0.0F);  // a second edge farther by no more: in doubt; < 0: never
-    float unused[3] NEARFIELD_DEFAULT({});
+    // Points that are not deeper only touch. Negative: in a batch, all points are asked for, and
+    // not only how many are deeper, and the deepest; of a pair, the CPU answers it
+    float touching NEARFIELD_DEFAULT(-1.0F);
+    float unused[2] NEARFIELD_DEFAULT({});
 };
 const uint units_of_direction = 4u;
 NEARFIELD_CHECK(sizeof(SearchDirectionData) == 16 * units_of_direction)
 
-// A point that the device has found.
+// A point that the device has found. Where only the deepest is asked for, points that cannot be it
+// are left out; those of them that are deeper than a touch are counted.
 struct FoundPointData {
     uint direction NEARFIELD_DEFAULT(0);
-    uint edge NEARFIELD_DEFAULT(0);    // of A
-    uint number NEARFIELD_DEFAULT(0);  // among the points of the edge
-    uint word NEARFIELD_DEFAULT(0);    // B's nearest edge and flags, as point_inside
+    uint edge NEARFIELD_DEFAULT(0);  // of A
+    // Among the points of the edge; from left_out_shift on, in a batch, how many were left out
+    // around it
+    uint number NEARFIELD_DEFAULT(0);
+    uint word NEARFIELD_DEFAULT(0);  // B's nearest edge and flags, as point_inside
 };
 NEARFIELD_CHECK(sizeof(FoundPointData) == 16)
+const uint left_out_shift = 24u;
+// A workgroup, which leaves out all of its points but one at most, can count them.
+NEARFIELD_CHECK(points_per_thread* search_block <= 1u << (32u - left_out_shift))
+// The error of a depth in margins: that of the point's place, and roundings of the distance.
+NEARFIELD_FLOAT depth_margins = 1.5;
 
 NEARFIELD_SHARED_END
 

@@ -33,6 +33,8 @@ float largest(vec4 v) {
     return max(max(v.x, v.y), max(v.z, v.w));
 }
 
+#include "left_out.glsl"
+
 Points points_at(vec4 x, vec4 y) {
     vec2 low = vec2(least(x), least(y));
     vec2 high = vec2(largest(x), largest(y));
@@ -252,7 +254,7 @@ uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction, out vec4 dep
     Shape b = shape_at(direction.shape_b);
     bool too_long = false;
     bvec4 inside = find_inside(p, asked, b, too_long);
-    float near_boundary = 2.0 * direction.margin;
+    float near_boundary = near_boundary_of(direction.margin);
     vec4 limit = direction.outside != 0.0 ? vec4(direction.reach + near_boundary)
                                    : mix(vec4(near_boundary), vec4(infinity), inside);
     Nearest nearest = find_nearest(p, b, limit, too_long);
@@ -355,17 +357,26 @@ void main() {
     uvec4 edges = uvec4(0u);
     uvec4 words = uvec4(0u);
     vec4 depths = vec4(0.0);
-    Batch batch;
+    Batch batch = Batch(0u, 0u, uvec4(0u), uvec4(0u), bvec4(false));
     if (index < total) {
         batch = batch_at(index);
         words = resolve_batch(batch, edges, depths);
+    }
+    uint left_out = 0u;
+    if (!finds_pairs && push.summarizes != 0u) {
+        left_out = leave_out(batch.direction, depths, words);
     }
     uvec4 found = uvec4(notEqual(words, uvec4(0u)));
     uint before = sum_before(found.x + found.y + found.z + found.w,
                              push.block_sums + thread / search_block);
     for (uint i = 0u; i < points_per_thread && index + i < total; ++i) {
+        uint number = batch.number[i];
+        if (found[i] != 0u) {
+            number |= left_out << left_out_shift;
+            left_out = 0u;
+        }
         scratch_units[push.point_units + index + i] =
-            uvec4(batch.direction | before << local_shift, edges[i], batch.number[i], words[i]);
+            uvec4(batch.direction | before << local_shift, edges[i], number, words[i]);
         scratch[push.depths + index + i] =
             floatBitsToUint(found[i] != 0u ? depths[i] : nothing_found);
         before += found[i];

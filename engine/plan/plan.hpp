@@ -12,6 +12,8 @@
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 
+#include <shaders/search.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -89,6 +91,10 @@ struct PlannedPoints {
     bool outside = false;     ///< points outside B are resolved as well
     std::uint32_t first = 0;  ///< in Plan::points
     std::uint32_t count = 0;
+    /// Only the number of penetrating points and the deepest are asked for.
+    bool summarized = false;
+    /// Points inside that the device has counted and left out: they are not the deepest.
+    std::uint32_t left_out = 0;
     double margin = 0.0;  ///< where the device finds them: bound on its errors, world units
     /// Index in Plan::queries of the other direction: points of B in the field of A.
     std::uint32_t reverse = none;
@@ -142,12 +148,15 @@ struct PlannedQuery {
 /// of it, examines at any poses. A double, since it may be huge.
 [[nodiscard]] double max_points(const PlannedQuery& query);
 
-/// A query, or one direction of it, whose points the device searches.
+/// A query, or one direction of it, whose points the device searches: all that the search needs to
+/// know, close together, as plans of thousands of queries exceed the processor's caches.
 struct SearchedQuery {
     std::uint32_t query = 0;  ///< in Plan::queries
-    /// A's frame in B's, both relative to the centres of the shapes.
-    geometry::Vector axis = geometry::Vector::UnitX();
-    geometry::Vector offset = geometry::Vector::Zero();
+    const geometry::Polygon* a = nullptr;
+    const geometry::Polygon* b = nullptr;
+    double spacing = 0.0;      ///< of the samples; 0: vertices are asked for
+    double max_points = 0.0;   ///< as max_points() has it
+    SearchDirectionData data;  ///< except for its places in the input
 };
 
 /// Indices of an array, sorted by tile batch; original order within each tile batch.

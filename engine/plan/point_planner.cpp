@@ -86,9 +86,12 @@ bool can_be_searched(CurrentQuery& current, double samples, double bytes_of_reco
            current.memory.fits_roughly(samples, bytes_of_found + bytes_of_record);
 }
 
-SearchedQuery searched_query(std::uint32_t query, const TransformedPolygon& a,
-                             const TransformedPolygon& b) {
-    return {query, b.rotation().transpose() * a.rotation().col(0), b.to_local(a.translation())};
+void add_search(std::uint32_t direction, const TransformedPolygon& a, const TransformedPolygon& b,
+                Plan& plan) {
+    PlannedQuery& planned = plan.queries[direction];
+    const geometry::Vector axis = b.rotation().transpose() * a.rotation().col(0);
+    plan.searched.push_back(searched_query(direction, planned, axis, b.to_local(a.translation())));
+    planned.points().margin = plan.searched.back().data.margin * unit_length_of(*planned.b);
 }
 
 /// Leaves the points of the query to the device, and with `both_ways` those of B as well: points
@@ -107,12 +110,12 @@ void search(double reach, bool both_ways, CurrentQuery& current, ResultSummary& 
     if (are_near) {
         const Box where = both_ways ? of_a.merged(of_b) : of_a;
         result.regions.push_back(region_of(Grid::covering(where, planned.budget.cell)));
-        current.plan.searched.push_back(searched_query(current.index, a.placed, b.placed));
+        add_search(current.index, a.placed, b.placed, current.plan);
     }
     if (both_ways) {
         const std::uint32_t reverse = add_reverse(current);
         if (are_near) {
-            current.plan.searched.push_back(searched_query(reverse, b.placed, a.placed));
+            add_search(reverse, b.placed, a.placed, current.plan);
         }
     }
 }
@@ -199,6 +202,7 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
     }
     planned.budget = budget;
     if (can_be_searched(current, of_boundary, bytes_of_record)) {
+        points.summarized = !query.records;
         search(0.0, false, current, result);
         return;
     }

@@ -20,27 +20,46 @@ bool asks_for_vertices(const PlannedQuery& query) {
     return penetration != nullptr && penetration->points == PenetrationPoints::vertices;
 }
 
+/// Points that are not deeper only touch. Precondition: a penetration query.
+double touching_of(const PlannedQuery& query) {
+    return std::get<PenetrationQuery>(*query.query).tolerance * static_cast<double>(touching_depth);
+}
+
 // Transforms A's frame to B's, in units of B's. Everything happens in floats, in a handful of
 // operations, each of which errs by at most 2^-24 of its result: 2^-20 of the largest coordinates
 // covers them.
-SearchDirectionData direction_of(const PlannedQuery& query, const SearchedQuery& searched) {
+SearchDirectionData direction_of(const PlannedQuery& query, const Vector& axis,
+                                 const Vector& offset) {
     SearchDirectionData data;
     const double unit = unit_length_of(*query.b);
-    const Vector axis = unit_length_of(*query.a) / unit * searched.axis;
-    const Vector offset = searched.offset / unit;
-    data.axis = {static_cast<float>(axis.x()), static_cast<float>(axis.y())};
-    data.offset = {static_cast<float>(offset.x()), static_cast<float>(offset.y())};
-    const double extent = (query.a->radius() + query.b->radius()) / unit + offset.norm();
+    const Vector axis_in_units = unit_length_of(*query.a) / unit * axis;
+    const Vector offset_in_units = offset / unit;
+    data.axis = {static_cast<float>(axis_in_units.x()), static_cast<float>(axis_in_units.y())};
+    data.offset = {static_cast<float>(offset_in_units.x()),
+                   static_cast<float>(offset_in_units.y())};
+    const double extent = (query.a->radius() + query.b->radius()) / unit + offset_in_units.norm();
     const double cell = query.budget.cell / unit;
     data.reach = query.points().outside ? rounded_up(reach_of(query) / unit) : 0.0F;
     data.margin = rounded_up(std::ldexp(extent, -20));
     data.rival = static_cast<float>(cell / std::numbers::sqrt2 * uniqueness_margin);
     data.outside = query.points().outside ? 1.0F : 0.0F;
     data.doubt = data.margin > search_precision * cell ? data.rival + 4.0F * data.margin : -1.0F;
+    data.touching =
+        query.points().summarized ? static_cast<float>(touching_of(query) / unit) : -1.0F;
     return data;
 }
 
 }  // namespace
+
+SearchedQuery searched_query(std::uint32_t index, const PlannedQuery& query, const Vector& axis,
+                             const Vector& offset) {
+    return {index,
+            query.a,
+            query.b,
+            asks_for_vertices(query) ? 0.0 : query.budget.cell,
+            max_points(query),
+            direction_of(query, axis, offset)};
+}
 
 BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found) {
     if (found.number == 0) {
@@ -51,7 +70,7 @@ BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found
     return {found.edge, found.number / parts_of_length(length, query.budget.cell)};
 }
 
-std::size_t PointSearchBuilder::build(Plan& plan, std::uint64_t largest_range,
+std::size_t PointSearchBuilder::build(const Plan& plan, std::uint64_t largest_range,
                                       std::vector<PointSearch>& searches) {
     if (plan.searched.empty()) {
         return 0;
@@ -65,32 +84,30 @@ std::size_t PointSearchBuilder::build(Plan& plan, std::uint64_t largest_range,
     return count;
 }
 
-std::size_t PointSearchBuilder::fill(Plan& plan, std::vector<PointSearch>& searches) {
+std::size_t PointSearchBuilder::fill(const Plan& plan, std::vector<PointSearch>& searches) {
     std::size_t count = 0;
     for (const SearchedQuery& searched : plan.searched) {
         checkpoint();
-        const PlannedQuery& planned = plan.queries[searched.query];
-        const double points = max_points(planned);
-        if (count == 0 || searches[count - 1].max_points + points > max_searched_points) {
+        if (count == 0 ||
+            searches[count - 1].max_points + searched.max_points > max_searched_points) {
             searches.resize(std::max(searches.size(), ++count));
             searches[count - 1].clear();
         }
         PointSearch& search = searches[count - 1];
-        search.max_points += points;
-        search.max_edges += static_cast<double>(planned.a->size());
-        add(plan, searched, search);
+        search.max_points += searched.max_points;
+        search.max_edges += static_cast<double>(searched.a->size());
+        add(searched, search);
     }
     return count;
 }
 
-void PointSearchBuilder::add(Plan& plan, const SearchedQuery& searched, PointSearch& search) {
-    PlannedQuery& planned = plan.queries[searched.query];
-    SearchDirectionData& data = search.directions.emplace_back(direction_of(planned, searched));
-    planned.points().margin = data.margin * unit_length_of(*planned.b);
-    data.shape_a = shapes_.place(*planned.a);
-    data.shape_b = shapes_.place(*planned.b);
-    if (!asks_for_vertices(planned)) {
-        data.parts = shapes_.place_parts(*planned.a, planned.budget.cell);
+void PointSearchBuilder::add(const SearchedQuery& searched, PointSearch& search) {
+    SearchDirectionData& data = search.directions.emplace_back(searched.data);
+    search.summarizes = search.summarizes || data.touching >= 0.0F;
+    data.shape_a = shapes_.place(*searched.a);
+    data.shape_b = shapes_.place(*searched.b);
+    if (searched.spacing > 0.0) {
+        data.parts = shapes_.place_parts(*searched.a, searched.spacing);
     }
     data.first_item = search.items;
     // Of each block of items, the direction of its first one.

@@ -15,6 +15,12 @@ namespace nearfield::plan {
 /// boundary that a query asks for, the side of B's boundary on which they lie, and the nearest edge
 /// of B, with nothing planned on the CPU (shaders/search.h).
 
+/// The search for a query, or one direction of it. `axis`, `offset`: A's frame in B's, both
+/// relative to the centres of the shapes.
+[[nodiscard]] SearchedQuery searched_query(std::uint32_t index, const PlannedQuery& query,
+                                           const geometry::Vector& axis,
+                                           const geometry::Vector& offset);
+
 /// The point of A's boundary that the device has found.
 [[nodiscard]] BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found);
 
@@ -26,6 +32,8 @@ struct PointSearch {
     std::vector<std::uint32_t> first_directions;  ///< by block of items: of its first item
     double max_edges = 0.0;                       ///< upper bounds on what the device may find
     double max_points = 0.0;
+    /// Of some directions the number of points and the deepest alone are asked for.
+    bool summarizes = false;
 
     void clear() {
         directions.clear();
@@ -33,25 +41,28 @@ struct PointSearch {
         items = 0;
         first_directions.clear();
         max_edges = max_points = 0.0;
+        summarizes = false;
     }
 };
 
 /// Points of one search at most; keeps all its buffers within the range that every device can
 /// address.
 inline constexpr double max_searched_points = 1U << 21U;
+static_assert(max_searched_points < 1U << left_out_shift);
 
 /// Turns the searched queries of a plan into the device's input.
 class PointSearchBuilder {
 public:
     /// Fills the first searches of `searches`, which grows as needed, and returns their number.
     /// Shapes of earlier plans are kept as long as all take at most `largest_range` bytes.
-    std::size_t build(Plan& plan, std::uint64_t largest_range, std::vector<PointSearch>& searches);
+    std::size_t build(const Plan& plan, std::uint64_t largest_range,
+                      std::vector<PointSearch>& searches);
     /// The shapes of the last build, and more; the input starts with them.
     [[nodiscard]] const SearchShapes& shapes() const { return shapes_; }
 
 private:
-    std::size_t fill(Plan& plan, std::vector<PointSearch>& searches);
-    void add(Plan& plan, const SearchedQuery& searched, PointSearch& search);
+    std::size_t fill(const Plan& plan, std::vector<PointSearch>& searches);
+    void add(const SearchedQuery& searched, PointSearch& search);
 
     SearchShapes shapes_;
 };

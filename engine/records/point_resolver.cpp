@@ -5,6 +5,8 @@
 #include <engine/records/nearest_feature.hpp>
 #include <engine/records/point_resolver.hpp>
 
+#include <shaders/search.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,9 +20,6 @@ namespace {
 /// Beyond this many cells, single precision cannot resolve a thousandth of d: the nearest edge is
 /// determined again, in double precision.
 constexpr double farthest_in_single_precision = 1024.0;
-/// The error of a depth that the device has computed, in margins of its query: that of the point's
-/// place, and roundings of the distance.
-constexpr double depth_margins = 1.5;
 
 }  // namespace
 
@@ -154,7 +153,7 @@ ResolvedPoint PointResolver::resolve(std::uint32_t index) {
 bool PointResolver::is_deeper(std::uint32_t index, double depth) const {
     constexpr std::uint32_t side = plan::point_inside | plan::point_doubtful;
     return (words_[index] & side) == plan::point_inside &&
-           plan_->points[index].depth > depth + depth_margins * query_->points().margin;
+           plan_->points[index].depth > depth + plan::depth_margins * query_->points().margin;
 }
 
 PenetrationSummary PointResolver::summarize_penetration(double tolerance) {
@@ -167,8 +166,9 @@ PenetrationSummary PointResolver::summarize_penetration(double tolerance) {
         }
     }
     // Points that are not as deep as this are not the deepest.
-    const double deep = deepest - 2.0 * depth_margins * points.margin;
+    const double deep = deepest - 2.0 * plan::depth_margins * points.margin;
     PenetrationSummary summary;
+    summary.count = points.left_out;
     for (std::uint32_t i = points.first; i < points.end(); ++i) {
         const bool is_certain = is_deeper(i, touching);
         if (is_certain && plan_->points[i].depth < deep) {

@@ -56,6 +56,7 @@ void SearchBuffers::upload(const plan::SearchShapes& shapes, const plan::PointSe
     std::copy(blocks.begin(), blocks.end(), target);
     input_.flush();
     item_.push.items = search.items;
+    item_.push.summarizes = search.summarizes ? 1 : 0;
     item_.push.directions = static_cast<std::uint32_t>(shapes.units().size());
     item_.push.direction_count = static_cast<std::uint32_t>(search.directions.size());
     const std::uint32_t max_edges = rounded_up(search.max_edges);

@@ -64,13 +64,13 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
 /// From the points that the device has found.
 void QueryAnswers::answer_by_search(const Asked& asked, PenetrationResult& result) {
     const PlannedQuery& planned = asked.planned();
-    if (std::get<PenetrationQuery>(*planned.query).records) {
-        collect_penetrations(asked, result);
-    } else {
+    if (planned.points().summarized) {
         const records::PenetrationSummary summary =
             resolver_.summarize_penetration(result.tolerance);
         result.count = summary.count;
         result.deepest = summary.deepest;
+    } else {
+        collect_penetrations(asked, result);
     }
     const bool is_known = searched_ != nullptr && cpu::is_reverse(*searched_, planned);
     result.intersects =

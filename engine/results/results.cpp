@@ -31,13 +31,15 @@ void ResultDecoder::add_found(const plan::PointSearch& search,
     plan::PlannedPoints* points = nullptr;
     float unit = 1.0F;  // a power of two
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const plan::FoundPointData& point = found[i];
+        plan::FoundPointData point = found[i];
         if (i == 0 || point.direction != found[i - 1].direction) {
             query = &plan.queries[search.queries[point.direction]];
             points = &query->points();
             points->first = static_cast<std::uint32_t>(plan.points.size());
             unit = static_cast<float>(plan::unit_length_of(*query->b));
         }
+        points->left_out += point.number >> plan::left_out_shift;
+        point.number &= (1U << plan::left_out_shift) - 1U;
         plan.points.push_back(
             {plan::found_point(*query, point), plan::PlannedPoint::no_tile, unit * depths[i]});
         words_.push_back(point.word);

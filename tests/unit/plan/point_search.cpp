@@ -31,7 +31,6 @@ protected:
         planned.b = &b_;
         planned.budget.cell = 0.05;
         planned.work.emplace<PlannedPoints>().source = PointSource::device;
-        plan_.searched.push_back({});
     }
 
     void build(const Rings& a, const Rings& b) {
@@ -40,6 +39,8 @@ protected:
         build();
     }
     void build() {
+        plan_.searched.assign(1, searched_query(0, plan_.queries.front(), geometry::Vector::UnitX(),
+                                                geometry::Vector::Zero()));
         ASSERT_EQ(builder_.build(plan_, std::uint64_t{1} << 27U, searches_), 1U);
         ASSERT_EQ(search().directions.size(), 1U);
     }
@@ -48,6 +49,12 @@ protected:
     void use(const geometry::Polygon& a, const geometry::Polygon& b) {
         plan_.queries.front().a = &a;
         plan_.queries.front().b = &b;
+    }
+    void ask_for_penetration(double tolerance, bool summarized) {
+        PenetrationQuery penetration;
+        penetration.tolerance = tolerance;
+        query_ = penetration;
+        plan_.queries.front().points().summarized = summarized;
     }
     void ask_for_contacts_within(double distance) {
         ContactQuery contacts;
@@ -230,6 +237,18 @@ TEST_F(PointSearchInput, MarginCoversSixteenRoundings) {
         const double rounding = std::ldexp(extent, -24);
         EXPECT_GE(static_cast<double>(search().directions.front().margin) * unit, 16.0 * rounding);
         EXPECT_LE(static_cast<double>(search().directions.front().margin) * unit, 17.0 * rounding);
+    }
+}
+
+// The device may leave out points only where nobody asks for all of them.
+TEST_F(PointSearchInput, SaysWhereTheDeepestPointIsEnough) {
+    for (const bool summarized : {true, false}) {
+        ask_for_penetration(0.01, summarized);
+        build(test::regular(5), test::regular(6));
+        const double unit = std::ldexp(1.0, std::ilogb(b_.radius()));
+        EXPECT_EQ(search().summarizes, summarized);
+        EXPECT_EQ(search().directions.front().touching,
+                  summarized ? static_cast<float>(0.01 / 1024.0 / unit) : -1.0F);
     }
 }
 
