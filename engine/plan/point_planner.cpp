@@ -14,6 +14,7 @@ namespace nearfield::plan {
 namespace {
 
 using geometry::Box;
+using geometry::BoxedPolygon;
 using geometry::grown;
 using geometry::TransformedPolygon;
 using localize::Chain;
@@ -35,14 +36,6 @@ constexpr double max_search_samples = 4096.0;
 // For a whole boundary: keeps the numbers of samples, and of the parts of an edge, well within 32
 // bits.
 constexpr double max_numbered_samples = 1U << 30U;
-
-struct BoxedPolygon {
-    TransformedPolygon placed;
-    Box box;
-
-    BoxedPolygon(const geometry::Polygon& polygon, const Pose& pose)
-        : placed(polygon, pose), box(placed.box()) {}
-};
 
 /// Checks that deviations and coordinates are compatible with the tolerance; the result states the
 /// error.
@@ -96,10 +89,11 @@ void add_search(std::uint32_t direction, const TransformedPolygon& a, const Tran
 
 /// Leaves the points of the query to the device, and with `both_ways` those of B as well: points
 /// inside, or up to `reach` outside.
-void search(double reach, bool both_ways, CurrentQuery& current, ResultSummary& result) {
+void search(double reach, bool both_ways, geometry::RecentlyPlaced& instances,
+            CurrentQuery& current, ResultSummary& result) {
     PlannedQuery& planned = current.planned();
-    const BoxedPolygon a(*planned.a, planned.pose_a);
-    const BoxedPolygon b(*planned.b, planned.pose_b);
+    const BoxedPolygon a = instances.place_with_box(*planned.a, planned.pose_a);
+    const BoxedPolygon b = instances.place_with_box(*planned.b, planned.pose_b);
     if (!check_numbers(planned, a, b, result)) {
         return;
     }
@@ -203,7 +197,7 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
     planned.budget = budget;
     if (can_be_searched(current, of_boundary, bytes_of_record)) {
         points.summarized = !query.records;
-        search(0.0, false, current, result);
+        search(0.0, false, instances_, current, result);
         return;
     }
     if (!check_numbers(planned, result)) {
@@ -267,7 +261,7 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
         return;
     }
     if (!gradients && can_be_searched(current, of_boundaries, bytes_of_record)) {
-        search(query.contact_distance, true, current, result);
+        search(query.contact_distance, true, instances_, current, result);
         return;
     }
     if (!check_numbers(planned, result)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/geometry/recently_placed.hpp>
 #include <engine/localize/closest.hpp>
 #include <engine/plan/current_query.hpp>
 #include <engine/plan/point_tiles.hpp>
@@ -44,6 +45,7 @@ private:
     /// Adds those of the samples that lie in `within`, and the tiles or regions that hold them.
     void add_samples(std::uint32_t direction, const geometry::Box& within, CurrentQuery& current);
 
+    geometry::RecentlyPlaced instances_{1024};  // whose points the device searches
     localize::ClosestChains closest_;
     std::array<std::vector<localize::Chain>, 2> chains_;  // A and B
     Regions regions_;

@@ -78,8 +78,11 @@ std::uint64_t max_shape_bytes(const Polygon& polygon) {
 }
 
 std::size_t SearchShapes::Hash::operator()(const Key& key) const {
-    return std::hash<const Polygon*>{}(key.polygon) ^ (std::hash<double>{}(key.length) << 1U) ^
-           static_cast<std::size_t>(key.content);
+    // Products spread the bits of addresses and of round lengths; the high ones are the best.
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
+    const std::uint64_t about =
+        std::bit_cast<std::uint64_t>(key.length) + static_cast<std::uint64_t>(key.content);
+    return ((std::bit_cast<std::uintptr_t>(key.polygon) ^ about * odd) * odd) >> 32U;
 }
 
 void SearchShapes::begin_batch() {
@@ -102,13 +105,22 @@ void SearchShapes::drop_unused() {
 
 void SearchShapes::clear() {
     entries_.clear();
+    recent_.fill({});
     units_.clear();
     units_in_use_ = 0;
     ++revision_;
 }
 
+SearchShapes::Entry& SearchShapes::entry_of(const Key& key) {
+    Recent& recent = recent_[Hash()(key) % recent_.size()];
+    if (recent.entry == nullptr || !(recent.key == key)) {
+        recent = {key, &entries_[key]};
+    }
+    return *recent.entry;
+}
+
 std::uint32_t SearchShapes::find_or_make(const Key& key) {
-    Entry& entry = entries_[key];
+    Entry& entry = entry_of(key);
     if (entry.room == 0 || entry.revision != key.polygon->revision()) {
         made_.clear();
         if (key.content == Content::parts) {

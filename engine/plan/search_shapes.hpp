@@ -78,7 +78,14 @@ private:
         std::uint64_t batch = 0;  ///< that used it last
     };
 
+    /// An entry that was found; most shapes are those of few queries before.
+    struct Recent {
+        Key key;
+        Entry* entry = nullptr;
+    };
+
     void drop_unused();
+    [[nodiscard]] Entry& entry_of(const Key& key);
     [[nodiscard]] std::uint32_t find_or_make(const Key& key);
     void make_shape(const geometry::Polygon& polygon);
     void list_edges(const geometry::Polygon& polygon, double deviation);
@@ -89,6 +96,7 @@ private:
     void make_parts(const geometry::Polygon& polygon, double spacing);
 
     std::unordered_map<Key, Entry, Hash> entries_;
+    std::array<Recent, 4096> recent_;  // by the low bits of the hash
     std::vector<SearchUnit> units_;
     std::vector<SearchUnit> made_;  // of one shape
     std::vector<std::array<float, 4>> boxes_;

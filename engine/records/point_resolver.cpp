@@ -28,8 +28,9 @@ void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& quer
     plan_ = &plan;
     query_ = &query;
     words_ = words;
-    a_.emplace(*query.a, query.pose_a);
-    b_.emplace(*query.b, query.pose_b);
+    a_ = recent_.place(*query.a, query.pose_a);
+    positions_.emplace(*a_);
+    b_ = recent_.place(*query.b, query.pose_b);
     boundary_is_set_ = false;
     points_.clear();
     next_ = 0;
@@ -135,7 +136,7 @@ double PointResolver::touching(const plan::PlannedPoint& planned) const {
 
 ResolvedPoint PointResolver::resolve(std::uint32_t index) {
     const plan::PlannedPoint& planned = plan_->points[index];
-    const Vector point = position(*a_, planned.point);
+    const Vector point = (*positions_)(planned.point);
     const Found found = find(point, index);
     const geometry::NearestOnSegment& on_edge = found.nearest.on_edge;
     const double distance = std::sqrt(on_edge.squared_distance);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/geometry/recently_placed.hpp>
 #include <engine/narrowphase/boundary.hpp>
 #include <engine/narrowphase/located_points.hpp>
 #include <engine/plan/plan.hpp>
@@ -97,9 +98,11 @@ private:
     const plan::Plan* plan_ = nullptr;
     const plan::PlannedQuery* query_ = nullptr;
     std::span<const std::uint32_t> words_;
+    geometry::RecentlyPlaced recent_{64};
     std::optional<geometry::TransformedPolygon> a_;
     std::optional<geometry::TransformedPolygon> b_;
-    simd::TransformedInstances instances_;  // B, if it is needed
+    std::optional<plan::BoundaryPositions> positions_;  // of points of A
+    simd::TransformedInstances instances_;              // B, if it is needed
     narrowphase::Boundary boundary_;
     bool boundary_is_set_ = false;
     simd::PointList points_;  // that the device left in doubt, some of them
