@@ -49,6 +49,24 @@ SearchDirectionData direction_of(const PlannedQuery& query, const Vector& axis,
     return data;
 }
 
+/// Whether the scratch memory of a search, which is the largest of its buffers, has room for
+/// another query, even if all its edges and points are looked at (render::ScratchLayout).
+bool has_room(const PointSearch& search, const SearchedQuery& more, std::uint64_t largest_range) {
+    // 20 bytes and a little for sums. Of each edge 32, 8 for each chunk, of which there is one per
+    // three edges at most, and three points for each direction, which has at least three edges.
+    constexpr double bytes_per_point = 21.0;
+    constexpr double bytes_per_edge = 60.0;
+    constexpr double few = 1U << 16U;
+    // Vulkan promises that so much can be allocated at once.
+    constexpr std::uint64_t largest_allocation = std::uint64_t{1} << 30U;
+    // Their data takes a quarter of the least range that Vulkan promises.
+    constexpr std::size_t max_directions = std::size_t{1} << 19U;
+    const double bytes = bytes_per_point * (search.max_points + more.max_points) +
+                         bytes_per_edge * (search.max_edges + static_cast<double>(more.a->size()));
+    return bytes + few <= static_cast<double>(std::min(largest_range, largest_allocation)) &&
+           search.directions.size() < max_directions;
+}
+
 }  // namespace
 
 SearchedQuery searched_query(std::uint32_t index, const PlannedQuery& query, const Vector& axis,
@@ -76,20 +94,20 @@ std::size_t PointSearchBuilder::build(const Plan& plan, std::uint64_t largest_ra
         return 0;
     }
     shapes_.begin_batch();
-    std::size_t count = fill(plan, searches);
+    std::size_t count = fill(plan, largest_range, searches);
     if (shapes_.units().size_bytes() > largest_range) {
         shapes_.clear();
-        count = fill(plan, searches);
+        count = fill(plan, largest_range, searches);
     }
     return count;
 }
 
-std::size_t PointSearchBuilder::fill(const Plan& plan, std::vector<PointSearch>& searches) {
+std::size_t PointSearchBuilder::fill(const Plan& plan, std::uint64_t largest_range,
+                                     std::vector<PointSearch>& searches) {
     std::size_t count = 0;
     for (const SearchedQuery& searched : plan.searched) {
         checkpoint();
-        if (count == 0 ||
-            searches[count - 1].max_points + searched.max_points > max_searched_points) {
+        if (count == 0 || !has_room(searches[count - 1], searched, largest_range)) {
             searches.resize(std::max(searches.size(), ++count));
             searches[count - 1].clear();
         }

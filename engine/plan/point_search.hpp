@@ -45,23 +45,24 @@ struct PointSearch {
     }
 };
 
-/// Points of one search at most; keeps all its buffers within the range that every device can
-/// address.
+/// Points of A's boundary at most, of a query or a pair.
 inline constexpr double max_searched_points = 1U << 21U;
 static_assert(max_searched_points < 1U << left_out_shift);
 
 /// Turns the searched queries of a plan into the device's input.
 class PointSearchBuilder {
 public:
-    /// Fills the first searches of `searches`, which grows as needed, and returns their number.
-    /// Shapes of earlier plans are kept as long as all take at most `largest_range` bytes.
+    /// Fills the first searches of `searches`, which grows as needed, and returns their number: as
+    /// few as have buffers of at most `largest_range` bytes whatever the device finds. Shapes of
+    /// earlier plans are kept as long as all take no more than that.
     std::size_t build(const Plan& plan, std::uint64_t largest_range,
                       std::vector<PointSearch>& searches);
     /// The shapes of the last build, and more; the input starts with them.
     [[nodiscard]] const SearchShapes& shapes() const { return shapes_; }
 
 private:
-    std::size_t fill(const Plan& plan, std::vector<PointSearch>& searches);
+    std::size_t fill(const Plan& plan, std::uint64_t largest_range,
+                     std::vector<PointSearch>& searches);
     void add(const SearchedQuery& searched, PointSearch& search);
 
     SearchShapes shapes_;

@@ -56,6 +56,13 @@ protected:
         query_ = penetration;
         plan_.queries.front().points().summarized = summarized;
     }
+    /// Those of so many queries like the one that was built.
+    [[nodiscard]] std::vector<PointSearch> searches_of(std::size_t queries, std::uint64_t range) {
+        plan_.searched.assign(queries, plan_.searched.front());
+        std::vector<PointSearch> searches;
+        searches.resize(builder_.build(plan_, range, searches));
+        return searches;
+    }
     void ask_for_contacts_within(double distance) {
         ContactQuery contacts;
         contacts.contact_distance = distance;
@@ -237,6 +244,26 @@ TEST_F(PointSearchInput, MarginCoversSixteenRoundings) {
         const double rounding = std::ldexp(extent, -24);
         EXPECT_GE(static_cast<double>(search().directions.front().margin) * unit, 16.0 * rounding);
         EXPECT_LE(static_cast<double>(search().directions.front().margin) * unit, 17.0 * rounding);
+    }
+}
+
+// All searches have room for what the device may find, however it divides.
+TEST_F(PointSearchInput, IsDividedWhereTheRangeEnds) {
+    build(test::regular(40), test::regular(40));
+    const double points = search().max_points;
+    const double bytes = 21.0 * points + 60.0 * 40.0;
+    constexpr std::size_t queries = 50;
+    for (const double fit : {1.0, 7.0, 25.0, 49.0, 50.0}) {
+        const auto range = static_cast<std::uint64_t>(65536.0 + (fit + 0.5) * bytes);
+        std::size_t all = 0;
+        for (const PointSearch& one : searches_of(queries, range)) {
+            EXPECT_LE(static_cast<double>(one.directions.size()), fit);
+            EXPECT_EQ(one.max_points, points * static_cast<double>(one.directions.size()));
+            all += one.directions.size();
+        }
+        EXPECT_EQ(all, queries);
+        EXPECT_EQ(searches_of(queries, range).size(),
+                  static_cast<std::size_t>(std::ceil(queries / fit)));
     }
 }
 
