@@ -28,6 +28,10 @@ constexpr double warm_up_milliseconds = 500.0;
 // Queries of the batch that separates the cost of a query from that of a submission.
 constexpr std::size_t many_queries = 64;
 
+// Queries of the batch that tells what a device takes for each of several: one alone leaves much of
+// a GPU idle.
+constexpr std::size_t several_queries = 4;
+
 /// The microseconds of a batch by one technique.
 struct BatchTimes {
     double plan = 0.0;    ///< of the calling thread, up to and with the submission
@@ -90,13 +94,19 @@ BatchTimes medians_of(const std::vector<BatchTimes>& frames) {
     return medians;
 }
 
+/// The times of a query alone, and of several.
+struct QueryTimes {
+    BatchTimes one;
+    BatchTimes several;
+};
+
 /// The times of a kind of query by one technique.
 struct KindTimes {
     BatchTimes one;            ///< query, hardly any work
     BatchTimes many;           ///< such queries
-    BatchTimes edges;          ///< one query of mostly edges
-    BatchTimes samples;        ///< one query of mostly samples
-    BatchTimes searches = {};  ///< one query of mostly searches, if there are any
+    QueryTimes edges;          ///< queries of mostly edges
+    QueryTimes samples;        ///< queries of mostly samples
+    QueryTimes searches = {};  ///< queries of mostly searches, if there are any
 
     /// Of each further query of a batch.
     [[nodiscard]] double query(double BatchTimes::*part) const {
@@ -105,6 +115,14 @@ struct KindTimes {
     /// Of a batch of one query beside the query.
     [[nodiscard]] double once(double BatchTimes::*part) const {
         return std::max(0.0, one.*part - query(part));
+    }
+    /// Of a query without what its batch takes once.
+    [[nodiscard]] double alone(const QueryTimes& times, double BatchTimes::*part) const {
+        if (part == &BatchTimes::device) {
+            return std::max(0.0, times.several.*part - times.one.*part) /
+                   static_cast<double>(several_queries - 1);
+        }
+        return std::max(0.0, times.one.*part - once(part));
     }
 };
 
@@ -173,6 +191,7 @@ private:
     BatchTimes median_times(const Batch& batch) { return median_times<1>({batch})[0]; }
     void make_progress();
     [[nodiscard]] Batch all_small(Technique technique, const calibration::Kind& kind) const;
+    QueryTimes query_times(Technique technique, const AnyQuery& query);
     AllTimes measure(Technique technique);
     DeviceCosts measure_device(Technique technique);
     double measure_overlap(Technique technique);
@@ -247,6 +266,13 @@ Batch Calibration::all_small(Technique technique, const calibration::Kind& kind)
     return batch;
 }
 
+QueryTimes Calibration::query_times(Technique technique, const AnyQuery& query) {
+    const BatchTimes one = median_times(batch_of(technique, query));
+    return {one, technique == Technique::cpu
+                     ? BatchTimes{}
+                     : median_times(batch_of(technique, query, several_queries))};
+}
+
 AllTimes Calibration::measure(Technique technique) {
     AllTimes times;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
@@ -255,12 +281,11 @@ AllTimes Calibration::measure(Technique technique) {
         times[i] = {
             .one = median_times(batch_of(technique, least)),
             .many = median_times(all_small(technique, kind)),
-            .edges = median_times(batch_of(technique, kind.query(many_.handle, kind.middle))),
-            .samples = median_times(batch_of(technique, kind.query(few_.handle, kind.fine))),
+            .edges = query_times(technique, kind.query(many_.handle, kind.middle)),
+            .samples = query_times(technique, kind.query(few_.handle, kind.fine)),
         };
         if (kind.searches) {
-            times[i].searches =
-                median_times(batch_of(technique, kind.query(many_.handle, kind.fine)));
+            times[i].searches = query_times(technique, kind.query(many_.handle, kind.fine));
         }
         make_progress();
     }
@@ -275,16 +300,17 @@ QueryCosts Calibration::fit(const AllTimes& times, double BatchTimes::*part) con
         const auto work = [&](const Star& star, double tolerance, double time) {
             const select::Work estimate =
                 select::work_of(kind.query(star.handle, tolerance), &star.polygon, star.polygon);
-            return select::MeasuredWork{estimate.edges, estimate.samples, estimate.searches, time};
-        };
-        const auto alone = [&](const BatchTimes& batch) {
-            return std::max(0.0, batch.*part - times[i].once(part));
+            // Both shapes of a query are one, which is handed to the device once.
+            const bool is_shared = part == &BatchTimes::plan && kind.cost == &QueryCosts::points;
+            const double shared = is_shared ? static_cast<double>(star.polygon.size()) : 0.0;
+            return select::MeasuredWork{estimate.edges - shared, estimate.samples,
+                                        estimate.searches, time};
         };
         costs.*kind.cost = select::fit_cost({
             .least = work(few_, kind.coarse, times[i].query(part)),
-            .edges = work(many_, kind.middle, alone(times[i].edges)),
-            .samples = work(few_, kind.fine, alone(times[i].samples)),
-            .searches = work(many_, kind.fine, alone(times[i].searches)),
+            .edges = work(many_, kind.middle, times[i].alone(times[i].edges, part)),
+            .samples = work(few_, kind.fine, times[i].alone(times[i].samples, part)),
+            .searches = work(many_, kind.fine, times[i].alone(times[i].searches, part)),
         });
     }
     return costs;

@@ -96,9 +96,26 @@ bool TechniqueSelector::is_answered_by_any(const AnyQuery& query) const {
                        [&](Technique technique) { return can_answer(technique, query); });
 }
 
+void TechniqueSelector::count_uses(std::span<const AnyQuery> queries,
+                                   std::span<const plan::QueryShapes> shapes) {
+    uses_.begin(2 * queries.size());
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const bool is_about_points = std::holds_alternative<PenetrationQuery>(queries[i]) ||
+                                     std::holds_alternative<ContactQuery>(queries[i]);
+        if (is_about_points && technique_of(queries[i]) == Technique::automatic &&
+            are_known(queries[i], shapes[i])) {
+            uses_.add(*shapes[i].a);
+            uses_.add(*shapes[i].b);
+        }
+    }
+}
+
 TechniqueSelector::Set TechniqueSelector::add_candidates(
     std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes) {
     candidates_.clear();
+    if (available_.device) {
+        count_uses(queries, shapes);
+    }
     Set others = 0;
     SparseCheckpoint<256> checkpoint;
     for (std::size_t index = 0; index < queries.size(); ++index) {
@@ -114,6 +131,13 @@ TechniqueSelector::Set TechniqueSelector::add_candidates(
     return others;
 }
 
+double TechniqueSelector::shared_edges(const plan::QueryShapes& shapes) const {
+    const auto shared = [this](const geometry::Polygon& shape) {
+        return shape.size() * (1.0 - 1.0 / uses_.count(shape));
+    };
+    return shared(*shapes.a) + shared(*shapes.b);
+}
+
 void TechniqueSelector::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
     Candidate& candidate = candidates_.emplace_back();
     candidate.query = &query;
@@ -122,8 +146,13 @@ void TechniqueSelector::add_candidate(AnyQuery& query, const plan::QueryShapes& 
         candidate.max_saved.fill(never);
     } else if (are_known(query, shapes)) {
         const WorkBounds bounds = work_bounds(query, shapes.a, *shapes.b);
+        if (available_.device && bounds.most.kind == &QueryCosts::points) {
+            candidate.shared_edges = shared_edges(shapes);
+        }
         for (std::uint32_t device = 0; device < cpu; ++device) {
-            candidate.max_saved[device] = bounds.max_saved(by_cpu_, not_hidden_[device]);
+            candidate.max_saved[device] =
+                bounds.max_saved(by_cpu_, not_hidden_[device]) +
+                devices_[device].plan.points.edge * candidate.shared_edges;
         }
     }
     for (std::uint32_t device = 0; device < cpu; ++device) {
@@ -142,7 +171,8 @@ Load TechniqueSelector::load_of(const Work& work, std::uint32_t technique) const
 void TechniqueSelector::estimate(Candidate& candidate) const {
     const AnyQuery& query = *candidate.query;
     const plan::QueryShapes& shapes = candidate.shapes;
-    const Work work = rough_work(query, shapes);
+    Work work = rough_work(query, shapes);
+    work.shared_edges = candidate.shared_edges;
     for (std::uint32_t i = 0; i < count; ++i) {
         const bool is_ruled_out = i == compute && can_answer(Technique::cpu, query) &&
                                   may_be_refused(query, shapes, largest_range_);

@@ -2,6 +2,7 @@
 
 #include <engine/plan/query_shapes.hpp>
 #include <engine/plan/technique.hpp>
+#include <engine/select/shape_uses.hpp>
 #include <engine/select/work.hpp>
 #include <nearfield/cost.hpp>
 #include <nearfield/query.hpp>
@@ -46,6 +47,7 @@ private:
         plan::QueryShapes shapes;
         /// Upper bound, computed without reading a vertex.
         Savings max_saved{};
+        double shared_edges = 0.0;  ///< Work::shared_edges
         /// By each technique; infinite for those that cannot answer. Set by estimate().
         std::array<Load, count> loads{};
         std::uint32_t chosen = cpu;
@@ -56,6 +58,10 @@ private:
     [[nodiscard]] Set add_candidates(std::span<AnyQuery> queries,
                                      std::span<const plan::QueryShapes> shapes);
     void add_candidate(AnyQuery& query, const plan::QueryShapes& shapes);
+    /// Counts the shapes of queries about points with Technique::automatic.
+    void count_uses(std::span<const AnyQuery> queries, std::span<const plan::QueryShapes> shapes);
+    /// Of a query about points: Work::shared_edges.
+    [[nodiscard]] double shared_edges(const plan::QueryShapes& shapes) const;
     [[nodiscard]] Load load_of(const Work& work, std::uint32_t technique) const;
     void estimate(Candidate& candidate) const;
     /// What the device saves over the CPU if its work is hidden as far as the model allows.
@@ -92,6 +98,7 @@ private:
     plan::AvailableTechniques available_;
     std::uint64_t largest_range_;
     std::vector<Candidate> candidates_;
+    ShapeUses uses_;
 };
 
 }  // namespace nearfield::select

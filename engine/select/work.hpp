@@ -21,6 +21,9 @@ struct Work {
     /// Of a distance field: the sum over its cells of the binary logarithm of 1 + the edges that
     /// are about as near to a cell as the nearest.
     double searches = 0.0;
+    /// Of `edges`, how many other queries about points of the batch hand to the device, as each
+    /// shape goes there once.
+    double shared_edges = 0.0;
     bool is_read = true;  ///< the host reads results that a device has made
 
     /// Microseconds.
@@ -30,7 +33,8 @@ struct Work {
     }
     /// Without submission and latency.
     [[nodiscard]] Load load(const DeviceCosts& costs) const {
-        return {.alone = time(costs.plan) + (is_read ? time(costs.read) : 0.0),
+        const double planned = time(costs.plan) - (costs.plan.*kind).edge * shared_edges;
+        return {.alone = planned + (is_read ? time(costs.read) : 0.0),
                 .device = time(costs.device)};
     }
     [[nodiscard]] Load load(const CpuCosts& costs) const {

@@ -11,7 +11,7 @@ namespace nearfield {
 /// `sample` * its samples + `search` * what its cells search.
 struct WorkCost {
     double query = 0.0;   ///< per query
-    double edge = 0.0;    ///< per edge of the two shapes
+    double edge = 0.0;    ///< per edge of the two shapes; see DeviceCosts::plan
     double sample = 0.0;  ///< per boundary point resolved, or per cell of a grid
     /// Of distance fields: per cell and doubling of the edges about as near to it as the nearest.
     double search = 0.0;
@@ -32,8 +32,8 @@ struct QueryCosts {
 struct DeviceCosts {
     double submission = 0.0;  ///< of the calling thread, once per batch that uses the technique
     double latency = 0.0;     ///< of the device, once per batch that uses the technique
-    QueryCosts plan = {};     ///< of the calling thread, before the submission
-    QueryCosts device = {};   ///< of the device
+    QueryCosts plan = {};     ///< before the submission; `points.edge` once per shape of a batch
+    QueryCosts device = {};   ///< of the device, of each of several queries
     QueryCosts read = {};     ///< of the calling thread, after the device; of what is read back
 };
 

@@ -244,6 +244,22 @@ TEST_F(ChooserTest, CountsNoReadingOfWhatStaysOnTheDevice) {
     EXPECT_EQ(technique_of(choose(costs, {resident})[0]), Technique::raster);
 }
 
+TEST_F(ChooserTest, CountsShapesOfPointsOnce) {
+    CostModel costs;
+    costs.cpu.answer.points = {1.0, 0.0, 0.0};
+    costs.raster.latency = 1e6;
+    costs.compute.plan.points = {0.1, 5.0 / (small_.size() + large_.size()), 0.0};
+    const auto chosen_of = [&](std::size_t count) {
+        return technique_of(
+            choose(costs, std::vector<AnyQuery>(count, AnyQuery(penetration(0.1)))).back());
+    };
+    EXPECT_EQ(chosen_of(1), Technique::cpu);      // 1 microsecond against 5.1
+    EXPECT_EQ(chosen_of(5), Technique::cpu);      // 5 against 5.5
+    EXPECT_EQ(chosen_of(7), Technique::compute);  // 7 against 5.7, the first one too
+    EXPECT_EQ(technique_of(choose(costs, std::vector<AnyQuery>(7, penetration(0.1)))[0]),
+              Technique::compute);
+}
+
 /// The CPU is chosen where the batch takes up to so much longer; and room for a 4,096th.
 constexpr double preference = 1.032;
 
@@ -256,6 +272,7 @@ TEST_F(ChooserTest, TakesTheLeastTimeButForOneQuery) {
         const CostModel costs = random_model(random);
         std::vector<AnyQuery> queries;
         std::vector<Work> works;
+        int open_points = 0;  // queries that share the plan of their shapes
         for (int i = random.whole(1, 7); i > 0; --i) {
             const double tolerance = random.scale(1e-3, 0.5);
             AnyQuery query = penetration(tolerance);
@@ -271,6 +288,16 @@ TEST_F(ChooserTest, TakesTheLeastTimeButForOneQuery) {
                 query);
             queries.push_back(query);
             works.push_back(select::work_of(query, &small_, large_));
+            open_points += works.back().kind == &QueryCosts::points &&
+                                   technique_of(query) == Technique::automatic
+                               ? 1
+                               : 0;
+        }
+        for (std::size_t i = 0; i < works.size(); ++i) {
+            if (works[i].kind == &QueryCosts::points &&
+                technique_of(queries[i]) == Technique::automatic) {
+                works[i].shared_edges = works[i].edges * (1.0 - 1.0 / open_points);
+            }
         }
         const TimedBatch batch(costs, works);
         const auto techniques_of = [](const std::vector<AnyQuery>& asked) {

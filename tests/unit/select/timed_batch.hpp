@@ -64,7 +64,8 @@ public:
             } else {
                 const DeviceCosts& costs =
                     techniques[i] == Technique::raster ? costs_->raster : costs_->compute;
-                alone += works_[i].time(costs.plan) + works_[i].time(costs.read);
+                alone += works_[i].time(costs.plan) + works_[i].time(costs.read) -
+                         works_[i].shared_edges * (costs.plan.*works_[i].kind).edge;
                 device += works_[i].time(costs.device);
             }
         }
