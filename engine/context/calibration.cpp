@@ -86,6 +86,7 @@ BatchTimes medians_of(const std::vector<BatchTimes>& frames) {
     BatchTimes medians;
     for (double BatchTimes::*const part : parts_of_times) {
         std::vector<double> times;
+        times.reserve(frames.size());
         for (const BatchTimes& frame : frames) {
             times.push_back(frame.*part);
         }

@@ -41,7 +41,7 @@ public:
                     std::span<std::uint8_t> intersects);
     void test_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
                     std::span<std::uint8_t> intersects);
-    void find_penetrations(const PenetrationQuery& query, std::span<const InstanceHandle> a,
+    void find_penetrations(const PenetrationQuery& asked, std::span<const InstanceHandle> a,
                            std::span<const InstanceHandle> b,
                            std::span<PairRow<PenetrationQuery>> rows);
     void find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,

@@ -71,7 +71,7 @@ private:
     [[nodiscard]] Set worthwhile_devices(Set paid);
     /// What queries that ask for a technique take, and the submissions that they pay for.
     [[nodiscard]] Load load_of_others(std::span<const AnyQuery> queries,
-                                      std::span<const plan::QueryShapes> shapes, Set paid) const;
+                                      std::span<const plan::QueryShapes> shapes, Set others) const;
     /// Sets `best` of all candidates, for the least time with any of the devices.
     void choose_best(Set devices, Set paid, const Load& others);
     /// Sets `chosen` of all candidates, for the least time with these devices, whose submissions

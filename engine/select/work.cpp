@@ -134,9 +134,11 @@ double edges_near(const TransformedPolygon& placed, const Box& box, double cell)
     const double reach = cells_together * std::numbers::sqrt2 * cell;
     std::uint32_t near = 0;
     for (int place = 0; place < columns * rows; ++place) {
+        const int column = place % columns;
+        const int row = place / columns;
         const geometry::Vector at =
-            box.min() + geometry::Vector(sides.x() * (place % columns + 0.5) / columns,
-                                         sides.y() * (place / columns + 0.5) / rows);
+            box.min() +
+            geometry::Vector(sides.x() * (column + 0.5) / columns, sides.y() * (row + 0.5) / rows);
         std::array<double, looked_at> squares;
         double least = std::numeric_limits<double>::infinity();
         for (std::uint32_t i = 0; i < count; ++i) {

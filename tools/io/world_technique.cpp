@@ -5,7 +5,7 @@ namespace {
 
 /// What messages call a query that the device does not answer; empty for others.
 std::string unanswered_by_device(const WorldRequest& request) {
-    const std::string name(name_of(request.type));
+    std::string name(name_of(request.type));
     switch (request.type) {
         case WorldQueryType::poses:
             return request.clearance ? name + " with \"answer\": \"clearance\"" : "";
