@@ -98,12 +98,18 @@ bool TechniqueSelector::is_answered_by_any(const AnyQuery& query) const {
 
 void TechniqueSelector::count_uses(std::span<const AnyQuery> queries,
                                    std::span<const plan::QueryShapes> shapes) {
-    uses_.begin(2 * queries.size());
+    const auto shares_shapes = [](const AnyQuery& query) {
+        return technique_of(query) == Technique::automatic &&
+               (std::holds_alternative<PenetrationQuery>(query) ||
+                std::holds_alternative<ContactQuery>(query));
+    };
+    const auto count = std::count_if(queries.begin(), queries.end(), shares_shapes);
+    if (count == 0) {
+        return;
+    }
+    uses_.begin(2 * static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < queries.size(); ++i) {
-        const bool is_about_points = std::holds_alternative<PenetrationQuery>(queries[i]) ||
-                                     std::holds_alternative<ContactQuery>(queries[i]);
-        if (is_about_points && technique_of(queries[i]) == Technique::automatic &&
-            are_known(queries[i], shapes[i])) {
+        if (shares_shapes(queries[i]) && are_known(queries[i], shapes[i])) {
             uses_.add(*shapes[i].a);
             uses_.add(*shapes[i].b);
         }
