@@ -105,6 +105,8 @@ struct QueryTimes {
 struct KindTimes {
     BatchTimes one;            ///< query, hardly any work
     BatchTimes many;           ///< such queries
+    BatchTimes shapes;         ///< as many, each of a shape of its own of some edges
+    BatchTimes shape;          ///< as many of one such shape
     QueryTimes edges;          ///< queries of mostly edges
     QueryTimes samples;        ///< queries of mostly samples
     QueryTimes searches = {};  ///< queries of mostly searches, if there are any
@@ -116,6 +118,11 @@ struct KindTimes {
     /// Of a batch of one query beside the query.
     [[nodiscard]] double once(double BatchTimes::*part) const {
         return std::max(0.0, one.*part - query(part));
+    }
+    /// Of each edge of a shape, whatever the number of queries that have it.
+    [[nodiscard]] double shape_edge(double BatchTimes::*part) const {
+        return std::max(0.0, shapes.*part - shape.*part) /
+               static_cast<double>((many_queries - 1) * calibration::some_edges);
     }
     /// Of a query without what its batch takes once.
     [[nodiscard]] double alone(const QueryTimes& times, double BatchTimes::*part) const {
@@ -144,9 +151,10 @@ public:
     Calibration(Context& context, const std::function<void(double)>& progress)
         : context_(&context),
           progress_(&progress),
-          stars_(many_queries + 1, Star(calibration::few_edges)),
+          stars_(2 * many_queries + 1, Star(calibration::few_edges)),
           few_(stars_.front()),
           many_(stars_.back()) {
+        std::fill_n(stars_.begin() + many_queries, many_queries, Star(calibration::some_edges));
         many_ = Star(calibration::many_edges);
         for (Star& star : stars_) {
             const Ring rings[] = {Ring(star.ring)};
@@ -191,7 +199,8 @@ private:
     std::array<BatchTimes, count> median_times(const std::array<Batch, count>& batches);
     BatchTimes median_times(const Batch& batch) { return median_times<1>({batch})[0]; }
     void make_progress();
-    [[nodiscard]] Batch all_small(Technique technique, const calibration::Kind& kind) const;
+    [[nodiscard]] Batch all_of(std::size_t first_star, Technique technique,
+                               const calibration::Kind& kind, double tolerance) const;
     QueryTimes query_times(Technique technique, const AnyQuery& query);
     AllTimes measure(Technique technique);
     DeviceCosts measure_device(Technique technique);
@@ -200,7 +209,7 @@ private:
 
     Context* context_;
     const std::function<void(double)>* progress_;
-    std::vector<Star> stars_;  // the last one has many edges
+    std::vector<Star> stars_;  // as many of few and of some edges, and one of many
     Star& few_;
     Star& many_;
     Results results_;
@@ -258,11 +267,12 @@ void Calibration::make_progress() {
     }
 }
 
-/// As many queries of hardly any work, each of a shape of its own.
-Batch Calibration::all_small(Technique technique, const calibration::Kind& kind) const {
+/// Many queries, each of a shape of its own.
+Batch Calibration::all_of(std::size_t first_star, Technique technique,
+                          const calibration::Kind& kind, double tolerance) const {
     Batch batch;
     for (std::size_t i = 0; i < many_queries; ++i) {
-        add(batch, technique, kind.query(stars_[i].handle, kind.coarse));
+        add(batch, technique, kind.query(stars_[first_star + i].handle, tolerance));
     }
     return batch;
 }
@@ -279,9 +289,15 @@ AllTimes Calibration::measure(Technique technique) {
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const calibration::Kind& kind = kinds[i];
         const AnyQuery least = kind.query(few_.handle, kind.coarse);
+        const AnyQuery some = kind.query(stars_[many_queries].handle, kind.middle);
+        const auto [shapes, shape] =
+            median_times<2>({all_of(many_queries, technique, kind, kind.middle),
+                             batch_of(technique, some, many_queries)});
         times[i] = {
             .one = median_times(batch_of(technique, least)),
-            .many = median_times(all_small(technique, kind)),
+            .many = median_times(all_of(0, technique, kind, kind.coarse)),
+            .shapes = shapes,
+            .shape = shape,
             .edges = query_times(technique, kind.query(many_.handle, kind.middle)),
             .samples = query_times(technique, kind.query(few_.handle, kind.fine)),
         };
@@ -298,21 +314,23 @@ QueryCosts Calibration::fit(const AllTimes& times, double BatchTimes::*part) con
     QueryCosts costs;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const calibration::Kind& kind = kinds[i];
-        const auto work = [&](const Star& star, double tolerance, double time) {
+        // Both shapes of a query are one. Several queries of it tell what each of them takes of
+        // the device, without the shape.
+        const double shapes = part == &BatchTimes::device ? 0.0 : 1.0;
+        const auto work = [&](const Star& star, double tolerance, double time, double shared) {
             const select::Work estimate =
                 select::work_of(kind.query(star.handle, tolerance), &star.polygon, star.polygon);
-            // Both shapes of a query are one, which is handed to the device once.
-            const bool is_shared = part == &BatchTimes::plan && kind.cost == &QueryCosts::points;
-            const double shared = is_shared ? static_cast<double>(star.polygon.size()) : 0.0;
-            return select::MeasuredWork{estimate.edges - shared, estimate.samples,
-                                        estimate.searches, time};
+            return select::MeasuredWork{estimate.edges, estimate.samples, estimate.searches,
+                                        shared * star.polygon.size(), time};
         };
-        costs.*kind.cost = select::fit_cost({
-            .least = work(few_, kind.coarse, times[i].query(part)),
-            .edges = work(many_, kind.middle, times[i].alone(times[i].edges, part)),
-            .samples = work(few_, kind.fine, times[i].alone(times[i].samples, part)),
-            .searches = work(many_, kind.fine, times[i].alone(times[i].searches, part)),
-        });
+        costs.*kind.cost = select::fit_cost(
+            {
+                .least = work(few_, kind.coarse, times[i].query(part), 1.0),
+                .edges = work(many_, kind.middle, times[i].alone(times[i].edges, part), shapes),
+                .samples = work(few_, kind.fine, times[i].alone(times[i].samples, part), shapes),
+                .searches = work(many_, kind.fine, times[i].alone(times[i].searches, part), shapes),
+            },
+            times[i].shape_edge(part));
     }
     return costs;
 }

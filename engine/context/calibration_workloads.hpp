@@ -12,6 +12,7 @@
 namespace nearfield::calibration {
 
 inline constexpr std::uint32_t few_edges = 16;
+inline constexpr std::uint32_t some_edges = 64;
 inline constexpr std::uint32_t many_edges = 4096;
 
 /// A shape in the context, and a copy for estimates: a star of five arms, about one in radius, as

@@ -26,6 +26,7 @@ void check_cost(const WorkCost& cost, const std::string& what) {
     check_cost(cost.edge, what + ".edge");
     check_cost(cost.sample, what + ".sample");
     check_cost(cost.search, what + ".search");
+    check_cost(cost.shape, what + ".shape");
 }
 
 void check_costs(const QueryCosts& costs, const std::string& what) {

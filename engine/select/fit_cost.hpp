@@ -10,6 +10,7 @@ struct MeasuredWork {
     double edges = 0.0;
     double samples = 0.0;
     double searches = 0.0;
+    double shape_edges = 0.0;
     double time = 0.0;
 };
 
@@ -22,7 +23,8 @@ struct Measurements {
     MeasuredWork searches;
 };
 
-/// Fits non-negative costs to measurements.
-[[nodiscard]] WorkCost fit_cost(const Measurements& measured);
+/// Fits non-negative costs to measurements. `shape`: that of an edge of a shape, measured by itself
+/// with small shapes; the fitted one is less where many edges take less each.
+[[nodiscard]] WorkCost fit_cost(const Measurements& measured, double shape = 0.0);
 
 }  // namespace nearfield::select

@@ -3,14 +3,25 @@
 #include <nearfield/cost.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace nearfield::select {
+
+/// What a technique takes that cannot answer.
+inline constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The weights of the device's and the CPU's work in a weighted time.
 struct LoadWeights {
     double device = 1.0;
     double cpu = 1.0;
 };
+
+/// What the device's and the CPU's time count at a price of the device's, from 0 (the device's
+/// work is hidden) to 1 (the CPU's is). A batch takes as long as its weighted time at 0 or at 1,
+/// whichever is longer.
+[[nodiscard]] inline LoadWeights weights_at(double price, double overlap) {
+    return {1.0 - (1.0 - price) * overlap, 1.0 - price * overlap};
+}
 
 /// The microseconds of a query or a batch, by who spends them.
 struct Load {

@@ -6,7 +6,6 @@
 #include <shaders/fields.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace nearfield::select {
 namespace {
@@ -14,22 +13,20 @@ namespace {
 constexpr std::array<Technique, 3> by_position{Technique::raster, Technique::compute,
                                                Technique::cpu};
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
-// A device is used only where a batch takes less than this part of the time without it: the model
-// is not as exact, and shapes that both use are prepared by either.
-constexpr double worth_a_device = 0.97;
-
-// How often the interval of prices is halved. Queries whose prices are closer together than a
-// 4,096th move to the CPU in the order of the batch.
-constexpr int price_steps = 12;
+// Of more queries than these ...
+constexpr std::size_t fewest_to_sample = 512;
+// ... about so many are looked at first; what they say of the others is right but for this factor.
+constexpr std::size_t looked_at_first = 128;
+constexpr double sample_error = 2.0;
+// What a closer look at a query takes, about, in microseconds.
+constexpr double close_look = 0.3;
 
 /// The sum of costs, of which the second ones count `weight`.
 QueryCosts sum_of(const QueryCosts& first, const QueryCosts& second, double weight) {
     QueryCosts costs;
     for (WorkCost QueryCosts::*const kind : kinds_of_work) {
-        for (double WorkCost::*const part :
-             {&WorkCost::query, &WorkCost::edge, &WorkCost::sample, &WorkCost::search}) {
+        for (double WorkCost::*const part : {&WorkCost::query, &WorkCost::edge, &WorkCost::sample,
+                                             &WorkCost::search, &WorkCost::shape}) {
             costs.*kind.*part = first.*kind.*part + weight * (second.*kind.*part);
         }
     }
@@ -39,13 +36,6 @@ QueryCosts sum_of(const QueryCosts& first, const QueryCosts& second, double weig
 /// The part of a device's costs that the CPU's answers cannot hide.
 QueryCosts not_hidden(const DeviceCosts& costs, double overlap) {
     return sum_of(sum_of(costs.plan, costs.read, 1.0), costs.device, 1.0 - overlap);
-}
-
-/// What the device's and the CPU's time count at a price of the device's, from 0 (the device's
-/// work is hidden) to 1 (the CPU's is). A batch takes as long as its weighted time at 0 or at 1,
-/// whichever is longer.
-LoadWeights weights_at(double price, double overlap) {
-    return {1.0 - (1.0 - price) * overlap, 1.0 - price * overlap};
 }
 
 Technique technique_of(const AnyQuery& query) {
@@ -96,69 +86,69 @@ bool TechniqueSelector::is_answered_by_any(const AnyQuery& query) const {
                        [&](Technique technique) { return can_answer(technique, query); });
 }
 
-void TechniqueSelector::count_uses(std::span<const AnyQuery> queries,
-                                   std::span<const plan::QueryShapes> shapes) {
-    const auto shares_shapes = [](const AnyQuery& query) {
-        return technique_of(query) == Technique::automatic &&
-               (std::holds_alternative<PenetrationQuery>(query) ||
-                std::holds_alternative<ContactQuery>(query));
-    };
-    const auto count = std::count_if(queries.begin(), queries.end(), shares_shapes);
-    if (count == 0) {
-        return;
-    }
-    uses_.begin(2 * static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        if (shares_shapes(queries[i]) && are_known(queries[i], shapes[i])) {
-            uses_.add(*shapes[i].a);
-            uses_.add(*shapes[i].b);
-        }
-    }
-}
-
 TechniqueSelector::Set TechniqueSelector::add_candidates(
     std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes) {
     candidates_.clear();
+    const auto is_open = [this](const AnyQuery& query) {
+        return technique_of(query) == Technique::automatic && is_answered_by_any(query);
+    };
     if (available_.device) {
-        count_uses(queries, shapes);
+        const auto open = std::count_if(queries.begin(), queries.end(), is_open);
+        uses_.begin(2 * static_cast<std::size_t>(open));
     }
     Set others = 0;
     SparseCheckpoint<256> checkpoint;
     for (std::size_t index = 0; index < queries.size(); ++index) {
         checkpoint.step();
         const Technique asked = technique_of(queries[index]);
-        if (asked == Technique::automatic && is_answered_by_any(queries[index])) {
+        if (is_open(queries[index])) {
             add_candidate(queries[index], shapes[index]);
         }
         for (std::uint32_t i = 0; i < count; ++i) {
             others |= asked == by_position[i] ? 1U << i : 0U;
         }
     }
+    for (Candidate& candidate : candidates_) {
+        bound_savings(candidate);
+    }
     return others;
 }
 
-double TechniqueSelector::shared_edges(const plan::QueryShapes& shapes) const {
-    const auto shared = [this](const geometry::Polygon& shape) {
-        return shape.size() * (1.0 - 1.0 / uses_.count(shape));
-    };
-    return shared(*shapes.a) + shared(*shapes.b);
+double TechniqueSelector::shape_edges(const Candidate& candidate) const {
+    double edges = 0.0;
+    for (const std::optional<std::uint32_t>& index : candidate.uses) {
+        if (index) {
+            const ShapeUse& use = uses_[*index];
+            edges += static_cast<double>(use.shape->size()) / use.count;
+        }
+    }
+    return edges;
 }
 
 void TechniqueSelector::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
     Candidate& candidate = candidates_.emplace_back();
     candidate.query = &query;
     candidate.shapes = shapes;
+    if (!available_.device || !are_known(query, shapes)) {
+        return;
+    }
+    WorkCost QueryCosts::*const kind = kind_of(query);
+    candidate.uses[0] = uses_.add(*shapes.b, kind);
+    if (!std::holds_alternative<DistanceFieldQuery>(query)) {  // of A, a field needs the box alone
+        candidate.uses[1] = uses_.add(*shapes.a, kind);
+    }
+}
+
+void TechniqueSelector::bound_savings(Candidate& candidate) const {
+    const AnyQuery& query = *candidate.query;
+    const plan::QueryShapes& shapes = candidate.shapes;
     if (!plan::answers(Technique::cpu, query)) {
         candidate.max_saved.fill(never);
     } else if (are_known(query, shapes)) {
-        const WorkBounds bounds = work_bounds(query, shapes.a, *shapes.b);
-        if (available_.device && bounds.most.kind == &QueryCosts::points) {
-            candidate.shared_edges = shared_edges(shapes);
-        }
+        WorkBounds bounds = work_bounds(query, shapes.a, *shapes.b);
+        bounds.least.shape_edges = bounds.most.shape_edges = shape_edges(candidate);
         for (std::uint32_t device = 0; device < cpu; ++device) {
-            candidate.max_saved[device] =
-                bounds.max_saved(by_cpu_, not_hidden_[device]) +
-                devices_[device].plan.points.edge * candidate.shared_edges;
+            candidate.max_saved[device] = bounds.max_saved(by_cpu_, not_hidden_[device]);
         }
     }
     for (std::uint32_t device = 0; device < cpu; ++device) {
@@ -175,10 +165,11 @@ Load TechniqueSelector::load_of(const Work& work, std::uint32_t technique) const
 }
 
 void TechniqueSelector::estimate(Candidate& candidate) const {
+    candidate.is_estimated = true;
     const AnyQuery& query = *candidate.query;
     const plan::QueryShapes& shapes = candidate.shapes;
     Work work = rough_work(query, shapes);
-    work.shared_edges = candidate.shared_edges;
+    work.shape_edges = shape_edges(candidate);
     for (std::uint32_t i = 0; i < count; ++i) {
         const bool is_ruled_out = i == compute && can_answer(Technique::cpu, query) &&
                                   may_be_refused(query, shapes, largest_range_);
@@ -194,11 +185,57 @@ double TechniqueSelector::saved(const Candidate& candidate, std::uint32_t device
         0.0, candidate.loads[cpu].weighted(hidden) - candidate.loads[device].weighted(hidden));
 }
 
+TechniqueSelector::Savings TechniqueSelector::least_savings(Set paid) const {
+    Savings least{};
+    for (std::uint32_t device = 0; device < cpu; ++device) {
+        least[device] = submissions(1U << device, paid).weighted(weights_at(0.0, overlap_));
+    }
+    return least;
+}
+
+bool TechniqueSelector::is_a_close_look_worthwhile(const Savings& least) {
+    const std::size_t stride = candidates_.size() / looked_at_first;
+    Savings expected{};
+    Savings small_at_most{};
+    Savings sampled{};
+    Savings sampled_at_most{};
+    std::size_t small = 0;
+    for (Candidate& candidate : candidates_) {
+        const bool is_large = candidate.max_saved[raster] > least[raster] ||
+                              candidate.max_saved[compute] > least[compute];
+        const bool is_sampled = !is_large && small++ % stride == 0;
+        if (is_large || is_sampled) {
+            estimate(candidate);
+        }
+        for (std::uint32_t device = 0; device < cpu; ++device) {
+            const double at_most = candidate.max_saved[device];
+            expected[device] += is_large ? saved(candidate, device) : 0.0;
+            small_at_most[device] += is_large ? 0.0 : at_most;
+            sampled[device] += is_sampled ? saved(candidate, device) : 0.0;
+            sampled_at_most[device] += is_sampled ? at_most : 0.0;
+        }
+    }
+    bool is_worthwhile = false;
+    for (std::uint32_t device = 0; device < cpu; ++device) {
+        if (sampled_at_most[device] > 0.0) {
+            expected[device] += small_at_most[device] * sampled[device] / sampled_at_most[device];
+        }
+        const double cost = least[device] + close_look * static_cast<double>(small);
+        is_worthwhile = is_worthwhile || sample_error * expected[device] > cost;
+    }
+    return is_worthwhile;
+}
+
 TechniqueSelector::Set TechniqueSelector::worthwhile_devices(Set paid) {
+    const Savings least = least_savings(paid);
+    if (candidates_.size() >= fewest_to_sample && !is_a_close_look_worthwhile(least)) {
+        return 0;
+    }
     Savings saved_by{};
     for (const Candidate& candidate : candidates_) {
         for (std::uint32_t device = 0; device < cpu; ++device) {
-            saved_by[device] += candidate.max_saved[device];
+            saved_by[device] +=
+                candidate.is_estimated ? saved(candidate, device) : candidate.max_saved[device];
         }
     }
     // A device that cannot save the cost of its submission, even if the CPU's answers hide its
@@ -207,15 +244,17 @@ TechniqueSelector::Set TechniqueSelector::worthwhile_devices(Set paid) {
     const auto worthwhile = [&] {
         Set devices = 0;
         for (std::uint32_t device = 0; device < cpu; ++device) {
-            const double cost = submissions(1U << device, paid).weighted(weights_at(0.0, overlap_));
             // Without a number where only a device answers.
-            devices |= saved_by[device] <= cost ? 0U : 1U << device;
+            devices |= saved_by[device] <= least[device] ? 0U : 1U << device;
         }
         return devices;
     };
     for (Candidate& candidate : candidates_) {
         if (worthwhile() == 0) {
             return 0;
+        }
+        if (candidate.is_estimated) {
+            continue;
         }
         estimate(candidate);
         for (std::uint32_t device = 0; device < cpu; ++device) {
@@ -243,80 +282,13 @@ Load TechniqueSelector::load_of_others(std::span<const AnyQuery> queries,
         const Technique asked = technique_of(queries[index]);
         for (std::uint32_t i = 0; i < count; ++i) {
             if (asked == by_position[i]) {
-                load += load_of(rough_work(queries[index], shapes[index]), i);
+                Work work = rough_work(queries[index], shapes[index]);
+                work.shape_edges = work.edges;
+                load += load_of(work, i);
             }
         }
     }
     return load;
-}
-
-std::uint32_t TechniqueSelector::fastest(const Candidate& candidate, const LoadWeights& weights,
-                                         Set devices) {
-    std::uint32_t best = cpu;
-    double least = never;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double time = candidate.loads[i].weighted(weights);
-        if ((i == cpu || (devices >> i & 1U) != 0) && time < least) {
-            least = time;
-            best = i;
-        }
-    }
-    return best;
-}
-
-Load TechniqueSelector::choose_by(const LoadWeights& weights, Set devices, const Load& fixed) {
-    Load load = fixed;
-    for (Candidate& candidate : candidates_) {
-        candidate.chosen = fastest(candidate, weights, devices);
-        load += candidate.loads[candidate.chosen];
-    }
-    return load;
-}
-
-Load TechniqueSelector::choose_with(Set devices, const Load& fixed) {
-    // The dearer the device's time, the fewer queries go there. The batch takes least at the price
-    // at which device and CPU have as much to do, or at an end of the interval.
-    double low = 0.0;
-    double high = 1.0;
-    for (int step = 0; step < price_steps; ++step) {
-        const double middle = 0.5 * (low + high);
-        const Load load = choose_by(weights_at(middle, overlap_), devices, fixed);
-        (load.device > load.cpu ? low : high) = middle;
-    }
-    const LoadWeights dearer = weights_at(high, overlap_);
-    Load load = choose_by(weights_at(low, overlap_), devices, fixed);
-    for (Candidate& candidate : candidates_) {
-        const std::uint32_t other = fastest(candidate, dearer, devices);
-        Load moved = load;
-        moved -= candidate.loads[candidate.chosen];
-        moved += candidate.loads[other];
-        if (moved.time(overlap_) < load.time(overlap_)) {
-            load = moved;
-            candidate.chosen = other;
-        }
-    }
-    return load;
-}
-
-void TechniqueSelector::choose_best(Set devices, Set paid, const Load& others) {
-    double limit = worth_a_device * choose_by({}, 0, others).time(overlap_);
-    for (Candidate& candidate : candidates_) {
-        candidate.best = candidate.chosen;
-    }
-    for (Set used = 1; used <= devices; ++used) {
-        if ((used & devices) != used) {
-            continue;
-        }
-        Load fixed = others;
-        fixed += submissions(used, paid);
-        const double time = choose_with(used, fixed).time(overlap_);
-        if (time < limit) {
-            limit = time;
-            for (Candidate& candidate : candidates_) {
-                candidate.best = candidate.chosen;
-            }
-        }
-    }
 }
 
 void TechniqueSelector::choose(std::span<AnyQuery> queries,

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,8 +30,10 @@ public:
     /// rejected get a technique too.
     ///
     /// By the model, the batch takes no longer than with one technique for all, and exceeds the
-    /// least time by no more than the choice for one query makes, and a 4,096th; but `cpu` is
-    /// preferred where it takes up to a 32nd longer.
+    /// least time by no more than the choice for one query makes, a 4,096th, and what shapes take
+    /// that several techniques prepare; but `cpu` is preferred where it takes up to a 32nd longer,
+    /// or a ninth longer than device and CPU together. Of hundreds of queries, those that matter
+    /// little are judged by a sample.
     void choose(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes);
 
 private:
@@ -47,9 +50,11 @@ private:
         plan::QueryShapes shapes;
         /// Upper bound, computed without reading a vertex.
         Savings max_saved{};
-        double shared_edges = 0.0;  ///< Work::shared_edges
+        /// Of its shapes; none where they do not count.
+        std::array<std::optional<std::uint32_t>, 2> uses{};
         /// By each technique; infinite for those that cannot answer. Set by estimate().
         std::array<Load, count> loads{};
+        bool is_estimated = false;
         std::uint32_t chosen = cpu;
         std::uint32_t best = cpu;  ///< of the best set of devices so far
     };
@@ -58,14 +63,19 @@ private:
     [[nodiscard]] Set add_candidates(std::span<AnyQuery> queries,
                                      std::span<const plan::QueryShapes> shapes);
     void add_candidate(AnyQuery& query, const plan::QueryShapes& shapes);
-    /// Counts the shapes of queries about points with Technique::automatic.
-    void count_uses(std::span<const AnyQuery> queries, std::span<const plan::QueryShapes> shapes);
-    /// Of a query about points: Work::shared_edges.
-    [[nodiscard]] double shared_edges(const plan::QueryShapes& shapes) const;
+    /// Sets `max_saved`, once all shapes are counted.
+    void bound_savings(Candidate& candidate) const;
+    /// Work::shape_edges.
+    [[nodiscard]] double shape_edges(const Candidate& candidate) const;
     [[nodiscard]] Load load_of(const Work& work, std::uint32_t technique) const;
     void estimate(Candidate& candidate) const;
     /// What the device saves over the CPU if its work is hidden as far as the model allows.
     [[nodiscard]] double saved(const Candidate& candidate, std::uint32_t device) const;
+    /// What each device has to save, to be worth its submission.
+    [[nodiscard]] Savings least_savings(Set paid) const;
+    /// Whether a device may save that with many queries, and the time of estimating them all.
+    /// Estimates those that might save it alone, and a sample of the others.
+    [[nodiscard]] bool is_a_close_look_worthwhile(const Savings& least);
     /// The devices without which the batch may take longer. Estimates candidates only until there
     /// are none; otherwise all are estimated.
     [[nodiscard]] Set worthwhile_devices(Set paid);
@@ -77,8 +87,16 @@ private:
     /// Sets `chosen` of all candidates, for the least time with these devices, whose submissions
     /// `fixed` includes. Returns the load of the batch.
     [[nodiscard]] Load choose_with(Set devices, const Load& fixed);
-    /// Sets `chosen` of all candidates to the least weighted time. Returns their load and `fixed`.
+    /// Sets `chosen` of all candidates to the least weighted time. Returns their load and `fixed`,
+    /// as if a shape's preparation were divided among techniques as its queries are.
     [[nodiscard]] Load choose_by(const LoadWeights& weights, Set devices, const Load& fixed);
+    /// Sets `chosen` of all candidates to a device, or the CPU where the device cannot answer.
+    [[nodiscard]] Load choose_alone(std::uint32_t device, const Load& fixed);
+    /// What preparing so many edges of a shape takes.
+    [[nodiscard]] Load load_of_shape(const ShapeUse& use, std::uint32_t technique,
+                                     double edges) const;
+    /// What shapes take beside that because several techniques prepare them, as `chosen` has it.
+    [[nodiscard]] Load load_of_repeated_shapes();
     [[nodiscard]] static std::uint32_t fastest(const Candidate& candidate,
                                                const LoadWeights& weights, Set devices);
     /// Of the devices that are not paid for.

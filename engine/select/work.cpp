@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace nearfield::select {
 namespace {
@@ -18,11 +19,14 @@ using geometry::Polygon;
 using geometry::TransformedPolygon;
 
 // Number of vertices of a shape that an estimate samples: the differences between techniques exceed
-// the uncertainty this leaves, and it takes less time than any answer.
+// the uncertainty this leaves, and it takes less time than any answer. Of small shapes, whose
+// answers take little, fewer.
 constexpr std::uint32_t looked_at = 64;
+constexpr std::uint32_t looked_at_of_small = 8;
 
 std::uint32_t stride_of(const Polygon& polygon) {
-    return (polygon.size() + looked_at - 1) / looked_at;
+    const std::uint32_t most = std::clamp(polygon.size() / 8, looked_at_of_small, looked_at);
+    return (polygon.size() + most - 1) / most;
 }
 
 // Up to this many vertices, boxing all is faster than picking some.
@@ -166,33 +170,33 @@ double cell_of(double tolerance) {
 struct Bounds {
     const Polygon* a;
     const Polygon& b;
+    WorkCost QueryCosts::*kind;
 
     [[nodiscard]] double edges() const {
         return static_cast<double>(b.size()) +
                (a == nullptr ? 0.0 : static_cast<double>(a->size()));
     }
-    [[nodiscard]] WorkBounds of(WorkCost QueryCosts::*kind, double least, double most) const {
+    [[nodiscard]] WorkBounds of(double least, double most) const {
         return {{kind, edges(), least}, {kind, edges(), most}};
     }
 
     WorkBounds operator()(const PenetrationQuery& query) const {
         if (query.points == PenetrationPoints::vertices) {
-            return of(&QueryCosts::points, a->size(), a->size());
+            return of(a->size(), a->size());
         }
-        return of(&QueryCosts::points, 0.0, max_boundary_samples(*a, cell_of(query.tolerance)));
+        return of(0.0, max_boundary_samples(*a, cell_of(query.tolerance)));
     }
 
     WorkBounds operator()(const ContactQuery& query) const {
         const double cell = cell_of(query.tolerance);
-        return of(&QueryCosts::points, 0.0,
-                  max_boundary_samples(*a, cell) + max_boundary_samples(b, cell));
+        return of(0.0, max_boundary_samples(*a, cell) + max_boundary_samples(b, cell));
     }
 
     WorkBounds operator()(const IntersectionQuery& query) const {
         const double most =
             max_common_cells(TransformedPolygon(*a, query.a.pose),
                              TransformedPolygon(b, query.b.pose), 0.0, cell_of(query.tolerance));
-        WorkBounds bounds = of(&QueryCosts::intersection, 0.0, most);
+        WorkBounds bounds = of(0.0, most);
         bounds.least.edges *= far_edge;
         return bounds;
     }
@@ -213,8 +217,7 @@ struct Bounds {
                                     TransformedPolygon(b, query.b.pose), query.tolerance, cell);
         }
         // Only A's box is used.
-        Work work{parts.features ? &QueryCosts::features : &QueryCosts::field,
-                  static_cast<double>(b.size()), least};
+        Work work{kind, static_cast<double>(b.size()), least};
         work.is_read = parts.host_values || parts.host_features || !query.points.empty();
         WorkBounds bounds{work, work};
         bounds.most.samples = most;
@@ -223,10 +226,9 @@ struct Bounds {
         return bounds;
     }
 
-    /// Closest points, separations, tests, and queries that only one technique answers.
     template <class Query>
     WorkBounds operator()(const Query& /*query*/) const {
-        return of(&QueryCosts::closest, 0.0, 0.0);
+        return of(0.0, 0.0);
     }
 };
 
@@ -292,6 +294,25 @@ private:
 
 }  // namespace
 
+WorkCost QueryCosts::*kind_of(const AnyQuery& query) {
+    return std::visit(
+        []<class Query>(const Query& asked) -> WorkCost QueryCosts::* {
+            if constexpr (std::is_same_v<Query, PenetrationQuery> ||
+                          std::is_same_v<Query, ContactQuery>) {
+                return &QueryCosts::points;
+            } else if constexpr (std::is_same_v<Query, IntersectionQuery>) {
+                return &QueryCosts::intersection;
+            } else if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {
+                return plan::field_parts(asked).features ? &QueryCosts::features
+                                                         : &QueryCosts::field;
+            } else {
+                // Separations, tests, and queries that only one technique answers, too.
+                return &QueryCosts::closest;
+            }
+        },
+        query);
+}
+
 double WorkBounds::max_saved(const QueryCosts& cpu, const QueryCosts& device) const {
     const WorkCost& by_cpu = cpu.*most.kind;
     const WorkCost& by_device = device.*most.kind;
@@ -302,11 +323,12 @@ double WorkBounds::max_saved(const QueryCosts& cpu, const QueryCosts& device) co
     };
     return std::max(0.0, by_cpu.query - by_device.query + saved(&WorkCost::edge, &Work::edges) +
                              saved(&WorkCost::sample, &Work::samples) +
-                             saved(&WorkCost::search, &Work::searches));
+                             saved(&WorkCost::search, &Work::searches) +
+                             saved(&WorkCost::shape, &Work::shape_edges));
 }
 
 WorkBounds work_bounds(const AnyQuery& query, const Polygon* a, const Polygon& b) {
-    return std::visit(Bounds{a, b}, query);
+    return std::visit(Bounds{a, b, kind_of(query)}, query);
 }
 
 Work work_of(const AnyQuery& query, const Polygon* a, const Polygon& b) {

@@ -21,26 +21,29 @@ struct Work {
     /// Of a distance field: the sum over its cells of the binary logarithm of 1 + the edges that
     /// are about as near to a cell as the nearest.
     double searches = 0.0;
-    /// Of `edges`, how many other queries about points of the batch hand to the device, as each
-    /// shape goes there once.
-    double shared_edges = 0.0;
+    /// The edges of its shapes, each divided by the number of queries that share what preparing it
+    /// takes.
+    double shape_edges = 0.0;
     bool is_read = true;  ///< the host reads results that a device has made
 
     /// Microseconds.
     [[nodiscard]] double time(const QueryCosts& costs) const {
         const WorkCost& cost = costs.*kind;
-        return cost.query + cost.edge * edges + cost.sample * samples + cost.search * searches;
+        return cost.query + cost.edge * edges + cost.sample * samples + cost.search * searches +
+               cost.shape * shape_edges;
     }
     /// Without submission and latency.
     [[nodiscard]] Load load(const DeviceCosts& costs) const {
-        const double planned = time(costs.plan) - (costs.plan.*kind).edge * shared_edges;
-        return {.alone = planned + (is_read ? time(costs.read) : 0.0),
+        return {.alone = time(costs.plan) + (is_read ? time(costs.read) : 0.0),
                 .device = time(costs.device)};
     }
     [[nodiscard]] Load load(const CpuCosts& costs) const {
         return {.alone = time(costs.plan), .cpu = time(costs.answer)};
     }
 };
+
+/// The kind of work that a query is.
+[[nodiscard]] WorkCost QueryCosts::*kind_of(const AnyQuery& query);
 
 /// Lower and upper bounds on the work of a query.
 struct WorkBounds {

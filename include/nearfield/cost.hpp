@@ -8,13 +8,17 @@
 namespace nearfield {
 
 /// Times of one kind of query, in microseconds. A query takes `query` + `edge` * its edges +
-/// `sample` * its samples + `search` * what its cells search.
+/// `sample` * its samples + `search` * what its cells search; the queries of a batch that a
+/// technique answers take `shape` * the edges of all their shapes beside, each shape counted once.
 struct WorkCost {
     double query = 0.0;   ///< per query
-    double edge = 0.0;    ///< per edge of the two shapes; see DeviceCosts::plan
+    double edge = 0.0;    ///< per edge of the two shapes
     double sample = 0.0;  ///< per boundary point resolved, or per cell of a grid
     /// Of distance fields: per cell and doubling of the edges about as near to it as the nearest.
     double search = 0.0;
+    /// Per edge of a shape, once for all queries of the kind that have it: it is put into trees, or
+    /// handed to the device.
+    double shape = 0.0;
 };
 
 /// Times of each kind of query.
@@ -32,7 +36,7 @@ struct QueryCosts {
 struct DeviceCosts {
     double submission = 0.0;  ///< of the calling thread, once per batch that uses the technique
     double latency = 0.0;     ///< of the device, once per batch that uses the technique
-    QueryCosts plan = {};     ///< before the submission; `points.edge` once per shape of a batch
+    QueryCosts plan = {};     ///< before the submission
     QueryCosts device = {};   ///< of the device, of each of several queries
     QueryCosts read = {};     ///< of the calling thread, after the device; of what is read back
 };

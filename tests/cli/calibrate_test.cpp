@@ -18,7 +18,7 @@ TEST_F(Calibrate, WritesCostsThatOtherCommandsGoBy) {
     const auto expect_times = [](const Json& kinds, const std::string& name) {
         double all = 0.0;
         for (const char* kind : {"points", "closest", "intersection", "field", "features"}) {
-            for (const char* part : {"query", "edge", "sample", "search"}) {
+            for (const char* part : {"query", "edge", "sample", "search", "shape"}) {
                 const double microseconds = kinds.at(kind).at(part);
                 EXPECT_GE(microseconds, 0.0) << name << ' ' << kind << ' ' << part;
                 all += microseconds;
@@ -48,7 +48,8 @@ TEST_F(Calibrate, WritesCostsThatOtherCommandsGoBy) {
             const Json points = {{"query", microseconds},
                                  {"edge", microseconds},
                                  {"sample", microseconds},
-                                 {"search", 0.0}};
+                                 {"search", 0.0},
+                                 {"shape", 0.0}};
             for (auto& [name, member] : other.items()) {
                 if (member.is_number()) {
                     member = microseconds;

@@ -44,11 +44,12 @@ constexpr std::array<NamedMember<QueryCosts, WorkCost>, 5> kind_members{{
     {"features", &QueryCosts::features},
 }};
 
-constexpr std::array<NamedMember<WorkCost, double>, 4> part_members{{
+constexpr std::array<NamedMember<WorkCost, double>, 5> part_members{{
     {"query", &WorkCost::query},
     {"edge", &WorkCost::edge},
     {"sample", &WorkCost::sample},
     {"search", &WorkCost::search},
+    {"shape", &WorkCost::shape},
 }};
 
 double read_time(const JsonPlace& place) {

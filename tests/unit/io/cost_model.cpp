@@ -17,7 +17,7 @@ CostModel numbered() {
     const auto set = [&](QueryCosts& costs) {
         for (WorkCost* work :
              {&costs.points, &costs.closest, &costs.intersection, &costs.field, &costs.features}) {
-            *work = {number(), number(), number(), number()};
+            *work = {number(), number(), number(), number(), number()};
         }
     };
     CostModel costs;
@@ -51,6 +51,7 @@ TEST(ToolsCostModel, IsReadAsItWasWritten) {
     EXPECT_EQ(read.compute.latency, costs.compute.latency);
     EXPECT_EQ(read.compute.plan.points.edge, costs.compute.plan.points.edge);
     EXPECT_EQ(read.compute.read.field.sample, costs.compute.read.field.sample);
+    EXPECT_EQ(read.cpu.answer.intersection.shape, costs.cpu.answer.intersection.shape);
     EXPECT_EQ(read.overlap, costs.overlap);
 }
 

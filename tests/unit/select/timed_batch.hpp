@@ -6,7 +6,10 @@
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,7 +24,7 @@ inline QueryCosts random_costs(test::Random& random) {
     QueryCosts costs;
     for (WorkCost QueryCosts::*const kind : kinds_of_work) {
         costs.*kind = {random_cost(random), random_cost(random), random_cost(random),
-                       random_cost(random)};
+                       random_cost(random), random_cost(random)};
     }
     return costs;
 }
@@ -40,11 +43,19 @@ inline CostModel random_model(test::Random& random) {
     return costs;
 }
 
+/// A query, and the numbers of its shapes, which it shares with others. Those that name a technique
+/// do not: their work includes their shapes.
+struct TimedQuery {
+    Work work;
+    std::vector<std::size_t> shapes;
+};
+
 /// A batch and the model's time of it, with a technique named for each query.
 class TimedBatch {
 public:
-    TimedBatch(const CostModel& costs, std::vector<Work> works)
-        : costs_(&costs), works_(std::move(works)) {}
+    TimedBatch(const CostModel& costs, std::vector<TimedQuery> queries,
+               std::vector<double> shape_edges = {})
+        : costs_(&costs), queries_(std::move(queries)), shape_edges_(std::move(shape_edges)) {}
 
     [[nodiscard]] double time(const std::vector<Technique>& techniques) const {
         double alone = 0.0;
@@ -57,25 +68,35 @@ public:
                 device += costs.latency;
             }
         }
-        for (std::size_t i = 0; i < works_.size(); ++i) {
+        std::set<std::tuple<std::size_t, const WorkCost*, Technique>> prepared;
+        for (std::size_t i = 0; i < queries_.size(); ++i) {
+            Work work = queries_[i].work;
+            for (const std::size_t shape : queries_[i].shapes) {
+                const WorkCost& kind = costs_->cpu.plan.*work.kind;
+                const bool is_new = prepared.insert({shape, &kind, techniques[i]}).second;
+                work.shape_edges += is_new ? shape_edges_[shape] : 0.0;
+            }
             if (techniques[i] == Technique::cpu) {
-                alone += works_[i].time(costs_->cpu.plan);
-                cpu += works_[i].time(costs_->cpu.answer);
+                alone += work.time(costs_->cpu.plan);
+                cpu += work.time(costs_->cpu.answer);
             } else {
                 const DeviceCosts& costs =
                     techniques[i] == Technique::raster ? costs_->raster : costs_->compute;
-                alone += works_[i].time(costs.plan) + works_[i].time(costs.read) -
-                         works_[i].shared_edges * (costs.plan.*works_[i].kind).edge;
-                device += works_[i].time(costs.device);
+                alone += work.time(costs.plan) + work.time(costs.read);
+                device += work.time(costs.device);
             }
         }
         return alone + device + cpu - costs_->overlap * std::min(device, cpu);
     }
 
-    /// The most that the choice for one query of the batch makes.
+    /// The most that the choice for one query of the batch makes, its shapes included.
     [[nodiscard]] double largest() const {
         double largest = 0.0;
-        for (const Work& work : works_) {
+        for (const TimedQuery& query : queries_) {
+            Work work = query.work;
+            for (const std::size_t shape : query.shapes) {
+                work.shape_edges += shape_edges_[shape];
+            }
             for (const DeviceCosts& costs : {costs_->raster, costs_->compute}) {
                 largest =
                     std::max(largest, work.time(costs.plan) + work.time(costs.device) +
@@ -104,7 +125,8 @@ public:
 
 private:
     const CostModel* costs_;
-    std::vector<Work> works_;
+    std::vector<TimedQuery> queries_;
+    std::vector<double> shape_edges_;
 };
 
 }  // namespace nearfield::select
