@@ -89,29 +89,55 @@ bool TechniqueSelector::is_answered_by_any(const AnyQuery& query) const {
 TechniqueSelector::Set TechniqueSelector::add_candidates(
     std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes) {
     candidates_.clear();
-    const auto is_open = [this](const AnyQuery& query) {
-        return technique_of(query) == Technique::automatic && is_answered_by_any(query);
-    };
-    if (available_.device) {
-        const auto open = std::count_if(queries.begin(), queries.end(), is_open);
-        uses_.begin(2 * static_cast<std::size_t>(open));
-    }
     Set others = 0;
     SparseCheckpoint<256> checkpoint;
     for (std::size_t index = 0; index < queries.size(); ++index) {
         checkpoint.step();
         const Technique asked = technique_of(queries[index]);
-        if (is_open(queries[index])) {
+        if (asked == Technique::automatic && is_answered_by_any(queries[index])) {
             add_candidate(queries[index], shapes[index]);
         }
         for (std::uint32_t i = 0; i < count; ++i) {
             others |= asked == by_position[i] ? 1U << i : 0U;
         }
     }
-    for (Candidate& candidate : candidates_) {
-        bound_savings(candidate);
-    }
     return others;
+}
+
+void TechniqueSelector::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
+    Candidate& candidate = candidates_.emplace_back();
+    candidate.query = &query;
+    candidate.shapes = shapes;
+    if (!plan::answers(Technique::cpu, query)) {
+        candidate.max_saved.fill(never);
+    } else if (are_known(query, shapes)) {
+        WorkBounds bounds = work_bounds(query, shapes.a, *shapes.b);
+        bounds.most.shape_edges = bounds.most.edges;  // if no other query has its shapes
+        for (std::uint32_t device = 0; device < cpu; ++device) {
+            candidate.max_saved[device] = bounds.max_saved(by_cpu_, not_hidden_[device]);
+        }
+    }
+    for (std::uint32_t device = 0; device < cpu; ++device) {
+        if (!available_.has(by_position[device])) {
+            candidate.max_saved[device] = 0.0;
+        }
+    }
+}
+
+void TechniqueSelector::count_shapes() {
+    uses_.begin(2 * candidates_.size());
+    for (Candidate& candidate : candidates_) {
+        const AnyQuery& query = *candidate.query;
+        const plan::QueryShapes& shapes = candidate.shapes;
+        if (!are_known(query, shapes)) {
+            continue;
+        }
+        WorkCost QueryCosts::*const kind = kind_of(query);
+        candidate.uses[0] = uses_.add(*shapes.b, kind);
+        if (!std::holds_alternative<DistanceFieldQuery>(query)) {
+            candidate.uses[1] = uses_.add(*shapes.a, kind);  // of which a field needs the box alone
+        }
+    }
 }
 
 double TechniqueSelector::shape_edges(const Candidate& candidate) const {
@@ -123,39 +149,6 @@ double TechniqueSelector::shape_edges(const Candidate& candidate) const {
         }
     }
     return edges;
-}
-
-void TechniqueSelector::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
-    Candidate& candidate = candidates_.emplace_back();
-    candidate.query = &query;
-    candidate.shapes = shapes;
-    if (!available_.device || !are_known(query, shapes)) {
-        return;
-    }
-    WorkCost QueryCosts::*const kind = kind_of(query);
-    candidate.uses[0] = uses_.add(*shapes.b, kind);
-    if (!std::holds_alternative<DistanceFieldQuery>(query)) {  // of A, a field needs the box alone
-        candidate.uses[1] = uses_.add(*shapes.a, kind);
-    }
-}
-
-void TechniqueSelector::bound_savings(Candidate& candidate) const {
-    const AnyQuery& query = *candidate.query;
-    const plan::QueryShapes& shapes = candidate.shapes;
-    if (!plan::answers(Technique::cpu, query)) {
-        candidate.max_saved.fill(never);
-    } else if (are_known(query, shapes)) {
-        WorkBounds bounds = work_bounds(query, shapes.a, *shapes.b);
-        bounds.least.shape_edges = bounds.most.shape_edges = shape_edges(candidate);
-        for (std::uint32_t device = 0; device < cpu; ++device) {
-            candidate.max_saved[device] = bounds.max_saved(by_cpu_, not_hidden_[device]);
-        }
-    }
-    for (std::uint32_t device = 0; device < cpu; ++device) {
-        if (!available_.has(by_position[device])) {
-            candidate.max_saved[device] = 0.0;
-        }
-    }
 }
 
 Load TechniqueSelector::load_of(const Work& work, std::uint32_t technique) const {
@@ -228,19 +221,10 @@ bool TechniqueSelector::is_a_close_look_worthwhile(const Savings& least) {
 
 TechniqueSelector::Set TechniqueSelector::worthwhile_devices(Set paid) {
     const Savings least = least_savings(paid);
-    if (candidates_.size() >= fewest_to_sample && !is_a_close_look_worthwhile(least)) {
-        return 0;
-    }
-    Savings saved_by{};
-    for (const Candidate& candidate : candidates_) {
-        for (std::uint32_t device = 0; device < cpu; ++device) {
-            saved_by[device] +=
-                candidate.is_estimated ? saved(candidate, device) : candidate.max_saved[device];
-        }
-    }
     // A device that cannot save the cost of its submission, even if the CPU's answers hide its
     // work, is left out. If all are, nothing needs a closer look, which would take as long as
     // answering small pairs.
+    Savings saved_by{};
     const auto worthwhile = [&] {
         Set devices = 0;
         for (std::uint32_t device = 0; device < cpu; ++device) {
@@ -249,17 +233,30 @@ TechniqueSelector::Set TechniqueSelector::worthwhile_devices(Set paid) {
         }
         return devices;
     };
+    const auto count = [&](const Savings& savings, double sign) {
+        for (std::uint32_t device = 0; device < cpu; ++device) {
+            saved_by[device] += sign * savings[device];
+        }
+    };
+    for (const Candidate& candidate : candidates_) {
+        count(candidate.max_saved, 1.0);
+    }
+    if (worthwhile() == 0) {
+        return 0;
+    }
+    count_shapes();
+    if (candidates_.size() >= fewest_to_sample && !is_a_close_look_worthwhile(least)) {
+        return 0;
+    }
     for (Candidate& candidate : candidates_) {
         if (worthwhile() == 0) {
             return 0;
         }
-        if (candidate.is_estimated) {
-            continue;
+        if (!candidate.is_estimated) {
+            estimate(candidate);
         }
-        estimate(candidate);
-        for (std::uint32_t device = 0; device < cpu; ++device) {
-            saved_by[device] += saved(candidate, device) - candidate.max_saved[device];
-        }
+        count(candidate.max_saved, -1.0);
+        count({saved(candidate, raster), saved(candidate, compute)}, 1.0);
     }
     return worthwhile();
 }

@@ -50,7 +50,7 @@ private:
         plan::QueryShapes shapes;
         /// Upper bound, computed without reading a vertex.
         Savings max_saved{};
-        /// Of its shapes; none where they do not count.
+        /// Of its shapes, where they count; set by count_shapes().
         std::array<std::optional<std::uint32_t>, 2> uses{};
         /// By each technique; infinite for those that cannot answer. Set by estimate().
         std::array<Load, count> loads{};
@@ -63,8 +63,8 @@ private:
     [[nodiscard]] Set add_candidates(std::span<AnyQuery> queries,
                                      std::span<const plan::QueryShapes> shapes);
     void add_candidate(AnyQuery& query, const plan::QueryShapes& shapes);
-    /// Sets `max_saved`, once all shapes are counted.
-    void bound_savings(Candidate& candidate) const;
+    /// Counts the shapes of all candidates.
+    void count_shapes();
     /// Work::shape_edges.
     [[nodiscard]] double shape_edges(const Candidate& candidate) const;
     [[nodiscard]] Load load_of(const Work& work, std::uint32_t technique) const;
