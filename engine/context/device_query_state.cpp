@@ -118,11 +118,13 @@ void DeviceQueryBase::State::start(const char* call, Context::Implementation& wi
         pass.milliseconds = 0.0;
     }
     render::Renderer& renderer = *context_->renderer();
+    const double made = renderer.pipeline_milliseconds();
     if (buffers_ == nullptr || renderer_ != renderer.number()) {
         buffers_ = renderer.make_world_query_buffers(question_);
         renderer_ = renderer.number();
         instances_.forget_places();
     }
+    making_pipelines_ = renderer.pipeline_milliseconds() - made;
     if (!instances_.are_those_of(with.shapes(), world.instances)) {
         for_cpu_.reset();
         instances_.update(call, with.shapes(), world.instances, {}, buffers_->world());
@@ -142,7 +144,7 @@ void DeviceQueryBase::State::start(const char* call, Context::Implementation& wi
 }
 
 void DeviceQueryBase::State::begin(const Stopwatch& total, plan::WorldQueryPush& push) {
-    timings.plan = total.milliseconds();
+    timings.plan = total.milliseconds() - making_pipelines_;
     render::Renderer& renderer = *context_->renderer();
     renderer.note_world_queries(question_);
     push.category = filter_.category;

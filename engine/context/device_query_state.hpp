@@ -62,7 +62,7 @@ protected:
                 begin(total, push);
             }
             set_submitted(true);
-            timings.total = total.milliseconds();
+            timings.total = total.milliseconds() - making_pipelines_;
         });
     }
     /// Waits for the answers of the device. `decide(i, answer)` answers question i from that,
@@ -172,7 +172,8 @@ private:
     Context::Implementation* context_ = nullptr;
     std::weak_ptr<const void> world_;
     std::unique_ptr<render::WorldQueryBuffers> buffers_;
-    std::uint32_t renderer_ = 0;  // number of that of the last submission
+    std::uint32_t renderer_ = 0;     // number of that of the last submission
+    double making_pipelines_ = 0.0;  // milliseconds of that submission
     DeviceInstances instances_{query_, pair_question_};
     PlacedInstances placed_;
     std::optional<world::Instances> for_cpu_;  // brought up to date when they are needed
