@@ -136,10 +136,20 @@ TEST_F(ChooserTest, CountsShapesOfPointsOnce) {
               Technique::compute);
 }
 
+TEST_F(ChooserTest, UsesADeviceForManyQueriesOfWhichEachSavesLittle) {
+    CostModel costs = ChooserTest::costs();
+    costs.raster.latency = 1e9;
+    costs.cpu.answer.points = {.query =
+                                   2.0};  // a microsecond more than by compute, which starts at 100
+    costs.compute.device.points = {.query = 1.0};
+    for (const AnyQuery& query : choose(costs, std::vector<AnyQuery>(2000, penetration(0.5)))) {
+        ASSERT_EQ(technique_of(query), Technique::compute);
+    }
+}
+
 TEST_F(ChooserTest, JudgesManyQueriesByASample) {
     CostModel costs = ChooserTest::costs();
     costs.raster.latency = 1e9;
-    // By their bounds, all points would be faster by the device; none is looked at for long.
     std::vector<AnyQuery> queries(2000, penetration(0.001));
     for (const AnyQuery& query : choose(costs, queries)) {
         ASSERT_EQ(technique_of(query), Technique::compute);

@@ -134,7 +134,7 @@ TEST(Work, BoundsSayWhatADeviceCanSave) {
     const auto random_costs = [&] {
         QueryCosts costs;
         costs.points = {random.scale(0.1, 10.0), random.scale(1e-3, 1.0), random.scale(1e-3, 1.0),
-                        random.scale(1e-3, 1.0)};
+                        random.scale(1e-3, 1.0), random.scale(1e-3, 1.0)};
         return costs;
     };
     for (int i = 0; i < 1000; ++i) {
@@ -147,12 +147,14 @@ TEST(Work, BoundsSayWhatADeviceCanSave) {
         bounds.most.samples = bounds.least.samples + random.between(0.0, 100.0);
         bounds.least.searches = random.between(0.0, 100.0);
         bounds.most.searches = bounds.least.searches + random.between(0.0, 100.0);
+        bounds.most.shape_edges = random.between(0.0, 100.0);
         const double most = bounds.max_saved(cpu, device);
         for (int k = 0; k < 20; ++k) {
             Work work;
             work.edges = random.between(bounds.least.edges, bounds.most.edges);
             work.samples = random.between(bounds.least.samples, bounds.most.samples);
             work.searches = random.between(bounds.least.searches, bounds.most.searches);
+            work.shape_edges = random.between(0.0, bounds.most.shape_edges);
             EXPECT_LE(work.time(cpu) - work.time(device), most + 1e-9) << i;
         }
     }
