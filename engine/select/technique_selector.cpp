@@ -81,9 +81,14 @@ TechniqueSelector::TechniqueSelector(const CostModel& costs,
       available_(available),
       largest_range_(largest_range) {}
 
-bool TechniqueSelector::is_answered_by_any(const AnyQuery& query) const {
-    return std::any_of(by_position.begin(), by_position.end(),
-                       [&](Technique technique) { return can_answer(technique, query); });
+TechniqueSelector::Set TechniqueSelector::techniques_for(const AnyQuery& query) const {
+    Set techniques = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const bool can_answer =
+            available_.has(by_position[i]) && plan::answers(by_position[i], query);
+        techniques |= can_answer ? 1U << i : 0U;
+    }
+    return techniques;
 }
 
 TechniqueSelector::Set TechniqueSelector::add_candidates(
@@ -94,7 +99,7 @@ TechniqueSelector::Set TechniqueSelector::add_candidates(
     for (std::size_t index = 0; index < queries.size(); ++index) {
         checkpoint.step();
         const Technique asked = technique_of(queries[index]);
-        if (asked == Technique::automatic && is_answered_by_any(queries[index])) {
+        if (asked == Technique::automatic) {
             add_candidate(queries[index], shapes[index]);
         }
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -105,22 +110,26 @@ TechniqueSelector::Set TechniqueSelector::add_candidates(
 }
 
 void TechniqueSelector::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
+    const Set techniques = techniques_for(query);
+    if (techniques == 0) {
+        return;
+    }
     Candidate& candidate = candidates_.emplace_back();
     candidate.query = &query;
     candidate.shapes = shapes;
-    if (!plan::answers(Technique::cpu, query)) {
-        candidate.max_saved.fill(never);
-    } else if (are_known(query, shapes)) {
+    candidate.techniques = techniques;
+    Savings max_saved{};
+    if (!candidate.can_use(cpu)) {
+        max_saved.fill(never);
+    } else if (techniques != 1U << cpu && are_known(query, shapes)) {
         WorkBounds bounds = work_bounds(query, shapes.a, *shapes.b);
         bounds.most.shape_edges = bounds.most.edges;  // if no other query has its shapes
         for (std::uint32_t device = 0; device < cpu; ++device) {
-            candidate.max_saved[device] = bounds.max_saved(by_cpu_, not_hidden_[device]);
+            max_saved[device] = bounds.max_saved(by_cpu_, not_hidden_[device]);
         }
     }
     for (std::uint32_t device = 0; device < cpu; ++device) {
-        if (!available_.has(by_position[device])) {
-            candidate.max_saved[device] = 0.0;
-        }
+        candidate.max_saved[device] = candidate.can_use(device) ? max_saved[device] : 0.0;
     }
 }
 
@@ -164,11 +173,10 @@ void TechniqueSelector::estimate(Candidate& candidate) const {
     Work work = rough_work(query, shapes);
     work.shape_edges = shape_edges(candidate);
     for (std::uint32_t i = 0; i < count; ++i) {
-        const bool is_ruled_out = i == compute && can_answer(Technique::cpu, query) &&
-                                  may_be_refused(query, shapes, largest_range_);
-        candidate.loads[i] = can_answer(by_position[i], query) && !is_ruled_out
-                                 ? load_of(work, i)
-                                 : Load{.alone = never};
+        const bool is_ruled_out =
+            i == compute && candidate.can_use(cpu) && may_be_refused(query, shapes, largest_range_);
+        candidate.loads[i] =
+            candidate.can_use(i) && !is_ruled_out ? load_of(work, i) : Load{.alone = never};
     }
 }
 

@@ -48,6 +48,7 @@ private:
     struct Candidate {
         AnyQuery* query = nullptr;
         plan::QueryShapes shapes;
+        Set techniques = 0;  ///< that can answer
         /// Upper bound, computed without reading a vertex.
         Savings max_saved{};
         /// Of its shapes, where they count; set by count_shapes().
@@ -57,11 +58,16 @@ private:
         bool is_estimated = false;
         std::uint32_t chosen = cpu;
         std::uint32_t best = cpu;  ///< of the best set of devices so far
+
+        [[nodiscard]] bool can_use(std::uint32_t technique) const {
+            return (techniques >> technique & 1U) != 0;
+        }
     };
 
     /// Collects the queries with Technique::automatic. Returns the techniques that others ask for.
     [[nodiscard]] Set add_candidates(std::span<AnyQuery> queries,
                                      std::span<const plan::QueryShapes> shapes);
+    /// Nothing if no technique can answer.
     void add_candidate(AnyQuery& query, const plan::QueryShapes& shapes);
     /// Counts the shapes of all candidates.
     void count_shapes();
@@ -102,11 +108,8 @@ private:
     /// Of the devices that are not paid for.
     [[nodiscard]] Load submissions(Set devices, Set paid) const;
 
-    /// Whether a technique is available and can answer.
-    [[nodiscard]] bool can_answer(Technique technique, const AnyQuery& query) const {
-        return available_.has(technique) && plan::answers(technique, query);
-    }
-    [[nodiscard]] bool is_answered_by_any(const AnyQuery& query) const;
+    /// Those that are available and can answer.
+    [[nodiscard]] Set techniques_for(const AnyQuery& query) const;
 
     std::array<DeviceCosts, cpu> devices_;
     CpuCosts cpu_;
