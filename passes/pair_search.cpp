@@ -6,8 +6,8 @@ using graph::Access;
 
 namespace {
 
-/// The same commands may be submitted again, so what they write waits for the search before.
-constexpr graph::ExternalAccess after_reads{.before = Access::storage_read_in_compute};
+/// The same commands may be submitted again, and a part follows another one, so what they write
+/// waits for the search before.
 constexpr graph::ExternalAccess after_writes{.before = Access::storage_write_in_compute};
 constexpr graph::ExternalAccess after_dispatches{.before = Access::indirect_arguments};
 
@@ -18,10 +18,11 @@ PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders,
     : shaders_(&shaders),
       input_(graph_.import_buffer({"pair shapes", true, false})),
       instances_(graph_.import_buffer({"pair instances", true, false})),
-      scratch_(graph_.import_buffer({"pair scratch"}, after_reads)),
+      scratch_(graph_.import_buffer({"pair scratch"}, after_writes)),
       arguments_(graph_.import_buffer({"pair arguments"}, after_dispatches)),
       row_buffer_(graph_.import_buffer({"pair rows", false, true}, after_writes)),
       counts_(graph_.import_buffer({"pair counts", false, true}, after_writes)) {
+    declare_boxes();
     declare_pairs();
     if (kind.goal == plan::PairGoal::tests) {
         declare_tests();
@@ -29,7 +30,32 @@ PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders,
         declare_points(kind);
     }
     declare_rows();
+    boxes_.graph.compile(device);
     graph_.compile(device);
+}
+
+void PairSearch::declare_boxes() {
+    auto& [graph, input, instances, scratch] = boxes_;
+    input = graph.import_buffer({"pair shapes", true, false});
+    instances = graph.import_buffer({"pair instances", true, false});
+    scratch = graph.import_buffer({"pair scratch"}, after_writes);
+    graph.add_pass(
+        "pair boxes", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(instances, Access::storage_read_in_compute);
+            pass.read(input, Access::storage_read_in_compute);
+            scratch = pass.write(scratch, Access::storage_write_in_compute);
+        },
+        [this](VkCommandBuffer commands, const Item& item) {
+            shaders_->instances.boxes.bind(commands, item.sets[of_instances]);
+            dispatch(commands, item, shaders_->instances.boxes, no_stage, no_stage);
+        });
+    scratch = graph.add_compute_pass(
+        "pair levels", {}, scratch, [this](VkCommandBuffer commands, const Item& item) {
+            shaders_->instances.levels.bind(commands, item.sets[of_instances]);
+            push(commands, item, shaders_->instances.levels, 0, no_stage);
+            shaders_->instances.levels.dispatch(commands, 1);
+        });
 }
 
 /// A pass that writes into the scratch memory; the set says what it reads.
@@ -74,17 +100,6 @@ void PairSearch::add_scan(const char* name, std::uint32_t stage) {
 }
 
 void PairSearch::declare_pairs() {
-    add("pair boxes", shaders_->instances.boxes, of_instances);
-    graph_.add_pass(
-        "pair levels", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-        },
-        [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->instances.levels.bind(commands, item.sets[of_instances]);
-            push(commands, item, shaders_->instances.levels, 0, no_stage);
-            shaders_->instances.levels.dispatch(commands, 1);
-        });
     add("count pairs", shaders_->counts, of_instances);
     graph_.add_pass(
         "list pairs", graph::PassKind::compute,
@@ -164,7 +179,7 @@ void PairSearch::declare_rows() {
         "pair rows", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(arguments_, Access::indirect_arguments);
-            pass.read(scratch_, Access::storage_read_in_compute);
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
             counts_ = pass.write(counts_, Access::storage_write_in_compute);
             static_cast<void>(pass.write(row_buffer_, Access::storage_write_in_compute));
         },
@@ -172,6 +187,15 @@ void PairSearch::declare_rows() {
             shaders_->rows.bind(commands, item.sets[of_rows]);
             dispatch(commands, item, shaders_->rows, plan::pair_total, plan::row_total);
         });
+}
+
+void PairSearch::record_boxes(VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                              const Item& item) const {
+    graph::Executor& executor = boxes_.graph.executor();
+    executor.set_buffer(boxes_.input, item.shapes);
+    executor.set_buffer(boxes_.instances, item.instances);
+    executor.set_buffer(boxes_.scratch, item.scratch);
+    boxes_.graph.execute(commands, timestamps, item);
 }
 
 void PairSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,

@@ -12,12 +12,14 @@
 
 namespace nearfield::passes {
 
-/// The passes that find all pairs of a world's instances and what is asked about them, in a
-/// separate graph: boxes and the levels above them, the pairs of each instance, counted and then
-/// listed, and their directions; then the search for points (PointSearch) in all of them and a
-/// summary per pair, or a test whether the two shapes meet; last, the rows of those pairs that have
-/// an answer. The number of dispatches depends neither on the number of instances nor on that of
-/// pairs. The commands need nothing from the CPU, so that they can be submitted again and again.
+/// The passes that find all pairs of a world's instances and what is asked about them, in two
+/// graphs. The first one makes boxes and the levels above them. The second one finds the pairs of a
+/// part of the instances, and follows the first one for each of these parts, which take turns with
+/// the same scratch memory: it counts the pairs of each instance, lists them, and finds their
+/// directions; then come the search for points (PointSearch) in all of them and a summary per pair,
+/// or a test whether the two shapes meet; last, the rows of those pairs that have an answer. The
+/// number of dispatches depends neither on the number of instances nor on that of the pairs of a
+/// part. The commands need nothing from the CPU, so that they can be submitted again and again.
 class PairSearch {
 public:
     /// The shaders must stay.
@@ -29,7 +31,7 @@ public:
     enum Set : std::uint8_t { of_instances, of_points, of_rows };
     static constexpr std::size_t set_count = 3;
 
-    /// What one search is recorded from.
+    /// What the search of one part is recorded from. Its push constants name the part.
     struct Item {
         std::array<VkDescriptorSet, set_count> sets{};
         VkBuffer shapes = VK_NULL_HANDLE;
@@ -43,18 +45,23 @@ public:
         /// How many elements of each stage there is room for.
         std::array<std::uint32_t, plan::stages_of_pairs> capacities{};
     };
+    /// Once, before the parts. The item is that of any of them.
+    void record_boxes(VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                      const Item& item) const;
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    static constexpr std::uint32_t max_passes = 16;
+    static constexpr std::uint32_t passes_of_boxes = 2;
+    static constexpr std::uint32_t max_passes_of_part = 14;
 
     [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
-        return graph_.print(format, title);
+        return boxes_.graph.print(format, "boxes of pairs") + graph_.print(format, title);
     }
 
 private:
     /// One thread per element that a stage has counted, or, without a stage, per instance.
     static constexpr std::uint32_t no_stage = UINT32_MAX;
 
+    void declare_boxes();
     void declare_pairs();
     void declare_points(const plan::PairSearchKind& kind);
     void declare_tests();
@@ -69,8 +76,16 @@ private:
     static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                      std::uint32_t first, std::uint32_t stage);
 
+    struct Boxes {
+        graph::RecordedGraph<Item> graph;
+        graph::Handle input;
+        graph::Handle instances;
+        graph::Handle scratch;
+    };
+
     const PairShaders* shaders_;
-    graph::RecordedGraph<Item> graph_;
+    Boxes boxes_;
+    graph::RecordedGraph<Item> graph_;  // of a part
     graph::Handle input_;
     graph::Handle instances_;
     graph::Handle scratch_;

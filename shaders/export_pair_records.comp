@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// What stays on the device of the points of a world's pairs that were found, a thread for as many as
-// in search_points.comp, which threads of a workgroup take in turns.
+// What stays on the device of the points of a world's pairs that were found, behind those of the parts
+// before, a thread for as many as in search_points.comp, which threads of a workgroup take in turns.
 
 #include "nearfield/nearfield.glsl"
 #include "search.glsl"
@@ -68,6 +68,7 @@ NearfieldPairRecord exported(uvec4 record, float depth) {
 void main() {
     uint block = dispatched_index() / search_block;
     uint before = scratch_word(push.point_blocks + block);
+    uint of_parts = scratch[records_so_far] - scratch[record_total];
     uint first = points_per_thread * search_block * block + gl_LocalInvocationID.x;
     for (uint i = 0u; i < points_per_thread; ++i) {
         uint point = first + search_block * i;
@@ -78,7 +79,7 @@ void main() {
         uint target = before + (record.x >> local_shift);
         record.x &= (1u << local_shift) - 1u;
         if (record.w != 0u && target < scratch[record_total]) {
-            records[target] =
+            records[of_parts + target] =
                 exported(record, uintBitsToFloat(scratch_word(push.depths + point)));
         }
     }

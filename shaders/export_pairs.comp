@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// What stays on the device of the pairs of a world, one thread per row; and how many pairs and records
-// there are.
+// What stays on the device of the pairs of a part of a world, one thread per row, behind those of the
+// parts before; and how many pairs and records there are so far.
 
 #include "nearfield/nearfield.glsl"
 #include "push.h"
@@ -17,7 +17,7 @@ layout(std430, set = 0, binding = 1) writeonly buffer Headers {
     uint headers[];  // two NearfieldHeader, words_between_headers apart
 };
 layout(std430, set = 0, binding = 2) readonly buffer Rows {
-    uvec4 rows[];  // in place of the first one: rows and records that there are, whether there are more
+    uvec4 rows[];  // in place of the first one: totals (pairs.h)
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Pairs {
     NearfieldPair pairs[];
@@ -40,7 +40,8 @@ void write_header(uint word, uint count, uint overflow) {
     }
 }
 
-void write_pair(uint row) {
+// `before`: the rows and records of the parts before.
+void write_pair(uint row, uvec2 before) {
     uvec4 first = rows[units_of_row * (row + 1u)];
     uvec4 second = rows[units_of_row * (row + 1u) + 1u];
     uvec4 third = rows[units_of_row * (row + 1u) + 2u];
@@ -48,23 +49,26 @@ void write_pair(uint row) {
     uint flags = is_undecided ? nearfield_undecided_flag : 0u;
     flags |= (first.z & row_to_resolve) != 0u ? nearfield_uncertain_flag : 0u;
     flags |= (first.z & row_intersects) != 0u ? nearfield_intersects_flag : 0u;
+    uint first_of_b = third.y > 0u ? before.y + third.x : third.x;
     bool has_deepest = !is_undecided && third.z != no_deepest;
     float unit = uintBitsToFloat(instance_unit(first.y, 1u).z);
     float depth = has_deepest ? unit * uintBitsToFloat(third.w) : 0.0;
-    pairs[row] = NearfieldPair(instance_unit(first.x, 3u).z, instance_unit(first.y, 3u).z,
-                               first.z & row_count_mask, flags, first.w, second.x, third.x, third.y,
-                               has_deepest ? third.z : nearfield_no_record, depth);
+    pairs[before.x + row] = NearfieldPair(
+        instance_unit(first.x, 3u).z, instance_unit(first.y, 3u).z, first.z & row_count_mask, flags,
+        before.y + first.w, second.x, first_of_b, third.y,
+        has_deepest ? before.y + third.z : nearfield_no_record, depth);
 }
 
 void main() {
     uint row = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * group_size +
                gl_LocalInvocationID.x;
     uvec4 totals = rows[0];
+    uvec4 before = rows[unit_of_parts_before];
     if (row < totals.x) {
-        write_pair(row);
+        write_pair(row, before.xy);
     }
     if (row == 0u) {
-        write_header(0u, totals.x, totals.z);
-        write_header(words_between_headers, totals.y, totals.z);
+        write_header(0u, before.x + totals.x, before.z | totals.z);
+        write_header(words_between_headers, before.y + totals.y, before.z | totals.z);
     }
 }

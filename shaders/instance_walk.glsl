@@ -42,27 +42,43 @@ uint top_level() {
     return level;
 }
 
-bool is_pair(uint unit, uint a, uvec2 filter_a, bool is_once) {
-    uvec4 b = scratch_unit(unit);  // number, category and mask
-    bool is_asked = is_once ? b.x > a : b.x != a;
-    return is_asked && (filter_a.x & b.z) != 0u && (b.y & filter_a.y) != 0u;
+// The instances that `a` makes pairs with: from the first on, so many, without itself.
+struct Partners {
+    uint first;
+    uint count;
+    uvec2 filter_a;  // category and mask
+};
+
+// Those of the part that is searched. A pair of contacts is answered from both directions, so its
+// reverse is searched with it, whatever part that is in.
+Partners partners_of(uint a) {
+    PairQueryData query = pair_query();
+    uvec2 filter_a = instance_unit(a, 2u).zw;
+    if (!is_in_part(a)) {
+        uint count = asks_outside(query) ? push.end_instance - push.first_instance : 0u;
+        return Partners(push.first_instance, count, filter_a);
+    }
+    uint first = query.is_once != 0u ? a + 1u : 0u;
+    return Partners(first, push.instances - first, filter_a);
 }
 
-uint pair_bit(uint unit, uint bit, uint boxes, uint a, uvec2 filter_a, bool is_once) {
-    return (boxes >> bit & 1u) != 0u && is_pair(unit + bit, a, filter_a, is_once) ? 1u << bit : 0u;
+bool is_pair(uint unit, uint a, Partners partners) {
+    uvec4 b = scratch_unit(unit);  // number, category and mask
+    bool is_asked = b.x - partners.first < partners.count && b.x != a;
+    return is_asked && (partners.filter_a.x & b.z) != 0u && (b.y & partners.filter_a.y) != 0u;
+}
+
+uint pair_bit(uint unit, uint bit, uint boxes, uint a, Partners partners) {
+    return (boxes >> bit & 1u) != 0u && is_pair(unit + bit, a, partners) ? 1u << bit : 0u;
 }
 
 // Of the boxes of a group of the lowest level, one bit each, those of instances that make a pair.
-uint pairs_among(uint boxes, uint group, uint a, uvec2 filter_a, bool is_once) {
+uint pairs_among(uint boxes, uint group, uint a, Partners partners) {
     uint unit = level_units[instance_levels] + 8u * group;
-    return pair_bit(unit, 0u, boxes, a, filter_a, is_once) |
-           pair_bit(unit, 1u, boxes, a, filter_a, is_once) |
-           pair_bit(unit, 2u, boxes, a, filter_a, is_once) |
-           pair_bit(unit, 3u, boxes, a, filter_a, is_once) |
-           pair_bit(unit, 4u, boxes, a, filter_a, is_once) |
-           pair_bit(unit, 5u, boxes, a, filter_a, is_once) |
-           pair_bit(unit, 6u, boxes, a, filter_a, is_once) |
-           pair_bit(unit, 7u, boxes, a, filter_a, is_once);
+    return pair_bit(unit, 0u, boxes, a, partners) | pair_bit(unit, 1u, boxes, a, partners) |
+           pair_bit(unit, 2u, boxes, a, partners) | pair_bit(unit, 3u, boxes, a, partners) |
+           pair_bit(unit, 4u, boxes, a, partners) | pair_bit(unit, 5u, boxes, a, partners) |
+           pair_bit(unit, 6u, boxes, a, partners) | pair_bit(unit, 7u, boxes, a, partners);
 }
 
 // The box of instance `a`, which is at its place in the order.
@@ -73,15 +89,17 @@ vec4 own_box(uint a) {
 
 // Returns the number of pairs with instance `a` first, or max_pairs where the walk takes too long.
 uint find_pairs(uint a) {
+    Partners partners = partners_of(a);
+    if (partners.count == 0u) {
+        return 0u;
+    }
     vec4 own = own_box(a);
-    uvec2 filter_a = instance_unit(a, 2u).zw;
-    bool is_once = pair_query().is_once != 0u;
     uint count = 0u;
     Walk walk = Walk(top_level(), 0u, uvec2(0u));
     for (uint steps = 0u; steps < max_instance_steps; ++steps) {
         uint boxes = group_overlaps(walk, own);
         if (walk.level == 0u) {
-            uint found = pairs_among(boxes, walk.group, a, filter_a, is_once);
+            uint found = pairs_among(boxes, walk.group, a, partners);
             steps += bitCount(found);
             for (boxes = 0u; found != 0u; ++count) {
                 take_pair(a, 8u * walk.group + take_bit(found), count);

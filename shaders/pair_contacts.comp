@@ -3,7 +3,7 @@
 
 // What is found of each pair, one thread per pair: how many points of either shape are certainly
 // contacts, and whether single precision can tell of all. Without contacts: whether the shapes
-// intersect.
+// intersect. The reverse of a pair of another part has no row.
 
 #include "search.glsl"
 #include "block_sum.glsl"
@@ -107,7 +107,9 @@ void main() {
         uint reverse = reverse_of(direction);
         uvec2 points_of_a = points_of(direction);
         uvec2 points_of_b = points_of(reverse);
-        count = count_of(direction, reverse, points_of_a, points_of_b);
+        if (is_in_part(direction_unit(direction, 3u).z)) {
+            count = count_of(direction, reverse, points_of_a, points_of_b);
+        }
         scratch_units[unit] = uvec4(records_of(points_of_a), no_deepest, count);
         of_b = records_of(points_of_b);
     }

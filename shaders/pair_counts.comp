@@ -19,6 +19,7 @@ void take_pair(uint a, uint place, uint number) {
     }
 }
 
+// No more than max_pairs, which is too many.
 uint items_of(uint a, uint count) {
     uint chunks = unit_at(instance_unit(a, 2u).x).x;
     return float(count) * float(chunks) < float(max_pairs) ? count * chunks : max_pairs;
@@ -30,6 +31,9 @@ void main() {
     bool exists = a < push.instances;
     uint count = exists ? find_pairs(a) : 0u;
     uint items = exists ? items_of(a, count) : 0u;
+    if (max(count, items) >= max_pairs) {
+        scratch[has_too_many_pairs] = 1u;
+    }
     uint block = a / search_block;
     uint pairs_before = sum_before(count, push.block_sums + block);
     uint items_before = sum_before(items, item_sums() + block);

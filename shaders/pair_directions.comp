@@ -61,9 +61,8 @@ SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b
     // In a test, three margins more than the reach is certainly too far.
     float reach = (1.0 + margin_of_frames) * query.reach / b.unit +
                   (query.is_test != 0u ? margin : 0.0);
-    bool asks_outside = query.is_test == 0u && query.reach > 0.0;
     return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, reach, margin, rival,
-                               asks_outside ? 1.0 : 0.0, doubt, query.touching / b.unit,
+                               asks_outside(query) ? 1.0 : 0.0, doubt, query.touching / b.unit,
                                float[2](0.0, 0.0));
 }
 

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The boxes of the levels above the third, in one workgroup.
+// The boxes of the levels above the third, in one workgroup. So far no instance has too many pairs.
 
 #include "search.glsl"
 #include "pairs.glsl"
@@ -12,6 +12,9 @@ layout(local_size_x = 128) in;
 shared vec4 boxes[512];
 
 void main() {
+    if (gl_LocalInvocationID.x == 0u) {
+        scratch[has_too_many_pairs] = 0u;
+    }
     uint below = level_size(2u);
     for (uint i = gl_LocalInvocationID.x; i < level_size(3u); i += gl_WorkGroupSize.x) {
         vec4 box = empty_box;

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The last step, one thread per pair: the rows of those that have points or intersect, or that the
-// CPU decides, one after the other; and how much was counted.
+// The last step of a part, one thread per pair: the rows of those that have points or intersect, or
+// that the CPU decides, one after the other; and how much was counted.
 
 #include "search.glsl"
 #include "pairs.h"
@@ -13,7 +13,7 @@ layout(local_size_x = group_size) in;
 #include "sums.glsl"
 
 layout(std430, set = 0, binding = 2) buffer Rows {
-    uvec4 rows[];  // in place of the first one: PairTotals
+    uvec4 rows[];  // in place of the first one: totals
 };
 layout(std430, set = 0, binding = 2) buffer RowWords {
     uint row_words[];  // the same memory: behind all rows, the numbers of those that the CPU decides
@@ -34,6 +34,24 @@ void write_row(uint direction, uint target, uvec4 summary, uvec4 place) {
     }
 }
 
+// The pairs of the part, which follow one another.
+uint own_pairs() {
+    uvec4 first = scratch_unit(push.lists + units_of_list * push.first_instance);
+    uvec4 last = scratch_unit(push.lists + units_of_list * (push.end_instance - 1u));
+    return last.x + last.z - first.x;
+}
+
+// For what stays on the device, where the parts follow one another.
+void add_to_parts(uvec4 totals) {
+    uvec4 before = push.first_instance == 0u ? uvec4(0u)
+                                             : uvec4(scratch[rows_so_far], scratch[records_so_far],
+                                                     scratch[overflow_so_far], 0u);
+    rows[unit_of_parts_before] = before;
+    scratch[rows_so_far] = before.x + totals.x;
+    scratch[records_so_far] = before.y + totals.y;
+    scratch[overflow_so_far] = before.z | totals.z;
+}
+
 // How much was counted, for the host and for results that stay on the device.
 void write_totals(uint total) {
     uint overflow = total > push.capacity ? 1u : 0u;
@@ -43,7 +61,13 @@ void write_totals(uint total) {
         overflow |= counted > scratch[stage] ? 1u : 0u;
     }
     pair_counts[row_total] = total;
-    rows[0] = uvec4(min(total, push.capacity), scratch[record_total], overflow, 0u);
+    if (scratch[has_too_many_pairs] != 0u) {
+        pair_counts[pair_total] = too_many_pairs;
+    }
+    pair_counts[reverse_pairs] = scratch[pair_total] - min(own_pairs(), scratch[pair_total]);
+    uvec4 totals = uvec4(min(total, push.capacity), scratch[record_total], overflow, 0u);
+    rows[0] = totals;
+    add_to_parts(totals);
 }
 
 void main() {

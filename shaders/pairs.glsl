@@ -18,6 +18,11 @@ PairQueryData pair_query() {
                          second.y, second.z, uint[1](0u));
 }
 
+// Of contacts: points outside the other shape are asked for, too.
+bool asks_outside(PairQueryData query) {
+    return query.is_test == 0u && query.reach > 0.0;
+}
+
 // A unit of an instance.
 uvec4 instance_unit(uint number, uint i) {
     return instance_units[units_of_query + units_of_instance * number + i];

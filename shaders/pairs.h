@@ -74,9 +74,24 @@ struct PairRowData {
     float depth NEARFIELD_DEFAULT(0.0F);  // its depth, in units of B's frame
 };
 const uint no_deepest = 0xffffffffu;
+// In place of the first row, three units: the rows and records that there are, and whether there
+// are more; then the same of all parts before.
+const uint unit_of_parts_before = 1u;
+// Words of the scratch memory that are free of totals: the same of all parts so far.
+const uint rows_so_far = 6u;
+const uint records_so_far = 7u;
+const uint overflow_so_far = 14u;
+// 1: an instance has max_pairs or more, or so many items, and cannot be searched.
+const uint has_too_many_pairs = 15u;
+NEARFIELD_CHECK(has_too_many_pairs < words_of_totals)
+// In place of the number of pairs that the host reads, then.
+const uint too_many_pairs = 0xfffffffeu;
+NEARFIELD_CHECK(stages_of_pairs <= rows_so_far && records_so_far < first_counted)
+NEARFIELD_CHECK(first_counted + stages_of_pairs <= overflow_so_far)
 // What the host reads beside the rows: by stage, how many were counted; then how many rows the CPU
-// decides.
+// decides, and how many of the pairs are reverses of pairs of contacts, of other parts.
 const uint undecided_rows = stages_of_pairs;
+const uint reverse_pairs = undecided_rows + 1u;
 const uint words_of_counts = 8u;         // whole units
 const uint words_between_headers = 64u;  // of what stays on the device: a multiple of any alignment
 const uint units_of_row = 3u;

@@ -129,6 +129,8 @@ struct SearchPush {
     uint summaries;         // first unit: two per pair
     uint verdicts;          // first word: by pair, what is known of their boundaries
     uint frames;            // first unit: by pair, the frame of B in the world
+    uint first_instance;    // the part that is searched: pairs whose `a` is one of these instances
+    uint end_instance;
 };
 
 struct PosePush {

@@ -29,6 +29,11 @@ uint direction_count() {
     return finds_pairs ? scratch[pair_total] : push.direction_count;
 }
 
+// Whether the pairs with this instance first are of the part that is searched.
+bool is_in_part(uint a) {
+    return a - push.first_instance < push.end_instance - push.first_instance;
+}
+
 // A unit of a direction.
 uvec4 direction_unit(uint index, uint i) {
     uint unit = push.directions + units_of_direction * index + i;

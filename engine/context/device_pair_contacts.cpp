@@ -8,7 +8,7 @@
 namespace nearfield {
 
 /// Both directions of the pair, with the points that the device found.
-void DevicePairTableBase::State::find_contacts(const plan::PairRowData& data) {
+void DevicePairTableBase::State::find_contacts(const plan::PairRowData& data, std::uint32_t row) {
     begin(data);
     plan::PlannedQuery& of_a = plan_.queries[0];
     plan::PlannedQuery& of_b = plan_.queries[1];
@@ -17,8 +17,8 @@ void DevicePairTableBase::State::find_contacts(const plan::PairRowData& data) {
     std::swap(of_b.pose_a, of_b.pose_b);
     std::swap(of_b.deviations.a, of_b.deviations.b);
     of_a.points().reverse = 1;
-    add_points(data.first_record, data.record_count, of_a);
-    add_points(data.first_of_b, data.count_of_b, of_b);
+    add_points(buffers_->records(row, data.first_record, data.record_count), of_a);
+    add_points(buffers_->records(row, data.first_of_b, data.count_of_b), of_b);
     contact_decoder_.find(plan_, of_a, words_, of_a.budget.cell, found_contacts_);
 }
 
@@ -32,7 +32,7 @@ ContactResult& DevicePairTableBase::State::contacts_of(const plan::PairRowData& 
         contacts_.records = answer.records;
         return contacts_;
     }
-    find_contacts(data);
+    find_contacts(data, row);
     const plan::PlannedQuery& planned = plan_.queries.front();
     contacts_.cell = planned.budget.cell;
     found_contacts_.write(*planned.a, *planned.b, std::get<ContactQuery>(query_), contacts_);
@@ -57,7 +57,7 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<ContactQuery>&
     }
     contacts_.count = data.count & plan::row_count_mask;
     if ((data.count & plan::row_to_resolve) != 0) {
-        find_contacts(data);
+        find_contacts(data, number);
         contacts_.count = found_contacts_.count();
     }
     contacts_.intersects = do_intersect(data);

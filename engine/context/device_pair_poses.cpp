@@ -90,7 +90,7 @@ void DevicePairTableBase::State::take_poses(const plan::PairRowData& pair) {
 }
 
 plan::PairRowData DevicePairTableBase::State::pair_of(std::uint32_t device_row) {
-    const plan::PairRowData data = buffers_->rows()[device_row];
+    const plan::PairRowData data = buffers_->row(device_row);
     take_poses(data);
     return data;
 }

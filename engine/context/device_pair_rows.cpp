@@ -104,7 +104,7 @@ ResidentPairs DevicePairTableBase::State::resident() const {
 
 std::uint32_t DevicePairTableBase::State::candidates() const {
     const bool has_searched = buffers_ != nullptr && instances_.size() > 1 && !is_submitted_;
-    return has_searched ? buffers_->counts()[plan::pair_total] : 0;
+    return has_searched ? buffers_->candidates() : 0;
 }
 
 std::uint32_t DevicePairTableBase::State::device_row(const char* call, std::uint32_t index) const {
@@ -200,11 +200,11 @@ void DevicePairTableBase::State::add_point(const plan::FoundPointData& found,
     ++planned.points().count;
 }
 
-void DevicePairTableBase::State::add_points(std::uint32_t first, std::uint32_t count,
+void DevicePairTableBase::State::add_points(std::span<const plan::FoundPointData> all,
                                             plan::PlannedQuery& planned) {
     planned.points().first = static_cast<std::uint32_t>(plan_.points.size());
     planned.points().count = 0;
-    for (const plan::FoundPointData& found : buffers_->records().subspan(first, count)) {
+    for (const plan::FoundPointData& found : all) {
         add_point(found, planned);
     }
 }
@@ -258,7 +258,8 @@ void DevicePairTableBase::State::records(std::uint32_t index,
     }
     records.clear();
     begin(data);
-    add_points(data.first_record, data.record_count, plan_.queries.front());
+    add_points(buffers_->records(number, data.first_record, data.record_count),
+               plan_.queries.front());
     resolver_.begin(plan_, plan_.queries.front(), words_);
     resolver_.for_each_penetration(
         question_.tolerance, [&](const PenetrationRecord& record) { records.push_back(record); });

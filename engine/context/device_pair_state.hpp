@@ -131,8 +131,9 @@ private:
     void require_records() const;
     void begin(const plan::PairRowData& data);
     void add_point(const plan::FoundPointData& found, plan::PlannedQuery& planned);
-    void add_points(std::uint32_t first, std::uint32_t count, plan::PlannedQuery& planned);
-    void find_contacts(const plan::PairRowData& data);
+    void add_points(std::span<const plan::FoundPointData> all, plan::PlannedQuery& planned);
+    /// Those of a row of the device.
+    void find_contacts(const plan::PairRowData& data, std::uint32_t row);
     /// The manifold of a pair of contacts and, if the query asks for them, their records; until the
     /// next call of any kind.
     [[nodiscard]] ContactResult& contacts_of(const plan::PairRowData& data, std::uint32_t row);

@@ -149,7 +149,7 @@ void DevicePairTableBase::State::decide() {
     const Stopwatch start;
     for (const std::uint32_t i : buffers_->undecided()) {
         // Where the row lies in memory of the device, each read of it takes long.
-        const plan::PairRowData& row = buffers_->rows()[i];
+        const plan::PairRowData& row = buffers_->row(i);
         const plan::PairRowData pair{.a = row.a, .b = row.b};
         take_poses(pair);
         decided_.push_back({i, false, pair});
@@ -240,7 +240,7 @@ void DevicePairTableBase::State::finish() {
             buffers_->finish(timings);
         }
         require_usable_poses();
-        rows = buffers_->counts()[plan::row_total];
+        rows = buffers_->row_count();
         decide();
     }
     set_submitted(false);

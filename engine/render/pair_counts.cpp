@@ -26,18 +26,18 @@ PairCounts first_capacities(const plan::PairSearchKind& kind) {
     return counts;
 }
 
-void require_countable(const PairCounts& counts) {
-    if (counts[plan::pair_total] >= plan::max_pairs) {
+bool is_countable(const PairCounts& counts) {
+    return counts[plan::pair_total] < plan::max_pairs &&
+           std::all_of(counts.begin(), counts.end(),
+                       [](std::uint32_t count) { return count <= max_counted; });
+}
+
+void require_searchable(const PairCounts& counts) {
+    if (counts[plan::pair_total] == plan::too_many_pairs) {
         throw StatusException(
             {StatusCode::too_large,
-             "the world has 2^24 pairs or more, or an instance whose box overlaps "
-             "with those of some 50,000 others"});
-    }
-    if (std::any_of(counts.begin(), counts.end(),
-                    [](std::uint32_t count) { return count > max_counted; })) {
-        throw StatusException({StatusCode::too_large,
-                               "the pairs of the world need more than 2^29 steps of a search; "
-                               "ask about fewer or smaller instances"});
+             "the world has an instance whose box overlaps with those of some 50,000 others, or "
+             "whose pairs have 2^27 edges"});
     }
 }
 

@@ -16,8 +16,10 @@ using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
 
 /// Room for what a first search may find. Tests look at no points.
 [[nodiscard]] PairCounts first_capacities(const plan::PairSearchKind& kind);
-/// Throws StatusException (too_large) if no memory would be enough.
-void require_countable(const PairCounts& counts);
+/// Whether a search of one part can count so many.
+[[nodiscard]] bool is_countable(const PairCounts& counts);
+/// Throws StatusException (too_large) if one instance has more pairs than can be searched.
+void require_searchable(const PairCounts& counts);
 /// Capacities for what a search has counted without room for all of it. Stages after one without
 /// room have counted only a part, so they get room for as many times more; those after pairs
 /// without room have counted nothing but items, and get room another time.

@@ -10,8 +10,8 @@
 namespace nearfield::render {
 namespace {
 
-constexpr std::array<const char*, passes::ExportPairs::set_count> names_of_output_sets{
-    "nearfield pair set of resident rows", "nearfield pair set of resident records"};
+constexpr std::array<const char*, 1> name_of_record_set{"nearfield pair set of resident records"};
+constexpr std::array<const char*, 1> name_of_row_set{"nearfield pair set of resident rows"};
 constexpr VkBufferUsageFlags output_usage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
@@ -29,11 +29,7 @@ PairOutputs::PairOutputs(const gpu::Device& device, const passes::ComputeLayout&
                device.resident_families()),
       headers_(device, output_usage, gpu::Direction::none, "nearfield resident pair headers",
                device.resident_families()),
-      sets_(device, layout, names_of_output_sets) {
-    for (std::size_t i = 0; i < item_.sets.size(); ++i) {
-        item_.sets[i] = sets_[i];
-    }
-}
+      set_of_records_(device, layout, name_of_record_set) {}
 
 void PairOutputs::set(const passes::ExportPairs& passes, const geometry::Vector& origin) {
     if (passes_ != &passes || origin != origin_) {
@@ -41,7 +37,6 @@ void PairOutputs::set(const passes::ExportPairs& passes, const geometry::Vector&
     }
     passes_ = &passes;
     origin_ = origin;
-    item_.origin = {static_cast<float>(origin.x()), static_cast<float>(origin.y())};
 }
 
 void PairOutputs::reserve(std::uint32_t pairs, std::uint32_t records) {
@@ -55,25 +50,41 @@ void PairOutputs::reserve(std::uint32_t pairs, std::uint32_t records) {
 
 void PairOutputs::bind(const Input& input) {
     using Layout = passes::ComputeLayout;
-    using passes::ExportPairs;
-    item_.search = &input.search;
-    item_.pairs = pairs_.handle();
-    item_.records = records_.handle();
-    item_.headers = headers_.handle();
+    instances_ = input.instances;
+    const VkDescriptorSet set = set_of_records_[0];
     layout_->begin_updates();
-    const auto write = [&](ExportPairs::Set set, Layout::Binding binding, const Part& part) {
-        layout_->write_buffer(item_.sets[set], binding, part.buffer, 0, part.bytes);
+    layout_->write_buffer(set, Layout::tiles, input.shapes.buffer, 0, input.shapes.bytes);
+    layout_->write_buffer(set, Layout::geometry, input.scratch.buffer, 0, input.scratch.bytes);
+    layout_->write_buffer(set, Layout::output, records_.handle(), 0,
+                          bytes_of_records(record_room_));
+    layout_->write_texels(set, Layout::texels, input.texels);
+    layout_->write_texels(set, Layout::scratch_texels, input.scratch_texels);
+    layout_->end_updates();
+}
+
+void PairOutputs::bind(std::size_t part, const InputOfPart& input) {
+    using Layout = passes::ComputeLayout;
+    using passes::ExportPairs;
+    if (part >= sets_of_rows_.size()) {
+        sets_of_rows_.emplace_back(*device_, *layout_, name_of_row_set);
+        items_.emplace_back();
+    }
+    ExportPairs::Item& item = items_[part];
+    item.search = &input.search;
+    item.sets[ExportPairs::of_records] = set_of_records_[0];
+    item.sets[ExportPairs::of_rows] = sets_of_rows_[part][0];
+    item.pairs = pairs_.handle();
+    item.records = records_.handle();
+    item.headers = headers_.handle();
+    item.origin = {static_cast<float>(origin_.x()), static_cast<float>(origin_.y())};
+    layout_->begin_updates();
+    const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
+        layout_->write_buffer(item.sets[ExportPairs::of_rows], binding, buffer, 0, bytes);
     };
-    write(ExportPairs::of_rows, Layout::tiles, input.instances);
-    write(ExportPairs::of_rows, Layout::geometry, {item_.headers, 2 * bytes_between_headers});
-    write(ExportPairs::of_rows, Layout::points, input.rows);
-    write(ExportPairs::of_rows, Layout::output, {item_.pairs, bytes_of_pairs(pair_room_)});
-    write(ExportPairs::of_records, Layout::tiles, input.shapes);
-    write(ExportPairs::of_records, Layout::geometry, input.scratch);
-    write(ExportPairs::of_records, Layout::output, {item_.records, bytes_of_records(record_room_)});
-    layout_->write_texels(item_.sets[ExportPairs::of_records], Layout::texels, input.texels);
-    layout_->write_texels(item_.sets[ExportPairs::of_records], Layout::scratch_texels,
-                          input.scratch_texels);
+    write(Layout::tiles, instances_.buffer, instances_.bytes);
+    write(Layout::geometry, item.headers, 2 * bytes_between_headers);
+    write(Layout::points, input.rows.buffer, input.rows.bytes);
+    write(Layout::output, item.pairs, bytes_of_pairs(pair_room_));
     layout_->end_updates();
 }
 

@@ -9,7 +9,9 @@
 #include <passes/compute_sets.hpp>
 #include <passes/export_pairs.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace nearfield::render {
 
@@ -35,20 +37,25 @@ public:
     void reserve(std::uint32_t pairs, std::uint32_t records);
 
     /// A buffer of the search.
-    struct Part {
+    struct Range {
         VkBuffer buffer = VK_NULL_HANDLE;
         std::uint64_t bytes = 0;
     };
     struct Input {
-        const passes::PairSearch::Item& search;
-        Part shapes, instances, scratch, rows;
+        Range shapes, instances, scratch;
         VkBufferView texels, scratch_texels;
     };
-    /// Says for which search the passes are recorded. The device must not be working at what was
-    /// recorded before.
+    /// A part of it, which has to stay.
+    struct InputOfPart {
+        const passes::PairSearch::Item& search;
+        Range rows;
+    };
+    /// Say for which search the passes are recorded, and then for each of its parts. The device
+    /// must not be working at what was recorded before.
     void bind(const Input& input);
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
-        passes_->record(commands, timestamps, item_);
+    void bind(std::size_t part, const InputOfPart& input);
+    void record(std::size_t part, VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
+        passes_->record(commands, timestamps, items_[part]);
     }
 
     [[nodiscard]] ResidentPairs pairs() const;
@@ -59,9 +66,11 @@ private:
     gpu::MappedBuffer pairs_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer headers_;
-    passes::DescriptorSets sets_;
+    passes::DescriptorSets set_of_records_;
+    std::vector<passes::DescriptorSets> sets_of_rows_;  // by part, as are these
+    std::vector<passes::ExportPairs::Item> items_;
     const passes::ExportPairs* passes_ = nullptr;
-    passes::ExportPairs::Item item_;
+    Range instances_;
     geometry::Vector origin_ = geometry::Vector::Zero();
     std::uint32_t pair_room_ = 0;
     std::uint32_t record_room_ = 0;

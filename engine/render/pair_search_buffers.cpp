@@ -5,28 +5,21 @@
 #include <engine/render/search_memory.hpp>
 
 #include <algorithm>
-#include <cstring>
-#include <string>
+#include <array>
 #include <utility>
 
 namespace nearfield::render {
 namespace {
 
-constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_sets{
-    "nearfield pair set of instances", "nearfield pair set of points",
-    "nearfield pair set of rows"};
+constexpr std::array<const char*, 1> name_of_instance_set{"nearfield pair set of instances"};
 
-/// Of each stage, where there is no memory for the usual ones.
-constexpr std::uint32_t least_capacity = 64;
 /// In place of the number of pairs until the device has counted them.
 constexpr std::uint32_t not_counted = UINT32_MAX;
 
-constexpr std::uint64_t bytes_of_counts = plan::words_of_counts * sizeof(std::uint32_t);
-
-/// Rows, one more, and the numbers of those that the CPU decides.
-std::uint64_t bytes_of_rows(std::uint32_t rows) {
-    return (std::uint64_t{rows} + 1) * sizeof(plan::PairRowData) +
-           std::uint64_t{rows} * sizeof(std::uint32_t);
+constexpr std::uint32_t passes_of_parts(std::size_t parts) {
+    return passes::PairPoses::max_passes + passes::PairSearch::passes_of_boxes +
+           static_cast<std::uint32_t>(parts) *
+               (passes::PairSearch::max_passes_of_part + passes::ExportPairs::max_passes);
 }
 
 }  // namespace
@@ -35,37 +28,18 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
                                      const plan::PairQuestion& question, bool timestamps)
     : device_(&device),
       layout_(&layout),
-      kind_(question.kind()),
+      question_(question),
       submission_(device),
-      timestamps_(device,
-                  passes::PairPoses::max_passes + passes::PairSearch::max_passes +
-                      passes::ExportPairs::max_passes,
-                  timestamps),
+      timestamps_(device, passes_of_parts(1), timestamps),
       poses_(device, layout),
       outputs_(device, layout),
       world_(device),
       scratch_(device, scratch_usage, gpu::Direction::none, "nearfield pair scratch"),
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::none, "nearfield pair arguments"),
-      records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
-               "nearfield pair points"),
-      // The host hardly reads rows that are resident: they lie in memory of the device.
-      rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            question.resident ? gpu::Direction::upload : gpu::Direction::readback,
-            "nearfield pair rows"),
-      // Some devices read arguments much faster where the host does not.
-      count_memory_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
-                    "nearfield pair counts"),
-      sets_(device, layout, names_of_pair_sets) {
+      sets_(device, layout, name_of_instance_set),
+      parts_(question) {
     arguments_.reserve(argument_bytes(plan::stages_of_pairs));
-    count_memory_.reserve(bytes_of_counts);
-    item_.capacities = first_capacities(kind_);
-    for (std::size_t i = 0; i < needed_.size(); ++i) {
-        needed_[i] = std::min(least_capacity, item_.capacities[i]);
-    }
-    for (std::size_t i = 0; i < item_.sets.size(); ++i) {
-        item_.sets[i] = sets_[i];
-    }
 }
 
 PairSearchBuffers::~PairSearchBuffers() {
@@ -74,65 +48,59 @@ PairSearchBuffers::~PairSearchBuffers() {
     }
 }
 
-/// Where everything is in the scratch memory, and how large it and its two companions are.
-PairSearchBuffers::Bytes PairSearchBuffers::place_arrays() {
-    plan::SearchPush& push = item_.push;
-    push.instances = world_.count();
-    const auto [edges, points, found, pairs, items, rows] = item_.capacities;
-    ScratchLayout layout;
-    push.boxes = layout.units(units_of_boxes(push.instances));
-    push.lists = layout.units(plan::units_of_list * std::uint64_t{push.instances});
-    push.pairs = layout.words(2 * std::uint64_t{pairs});
-    push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
-    push.summaries = layout.units(2 * std::uint64_t{pairs});
-    push.verdicts = layout.words(pairs);
-    push.frames = layout.units(pairs);
-    push.first_directions = layout.sums(items);
-    // Two sums for each block of instances, which begin whole units.
-    constexpr std::uint64_t more = std::uint64_t{8} * plan::search_block;
-    const std::uint64_t instances = 2 * std::uint64_t{push.instances} + more;
-    layout.add_stages(items, edges, points, std::max<std::uint64_t>(pairs, instances), push);
-    Bytes bytes{layout.bytes(), records_bytes(), bytes_of_rows(rows)};
-    if (outputs_.is_set()) {
-        bytes.resident_records = PairOutputs::bytes_of_records(found);
-        bytes.resident_rows = PairOutputs::bytes_of_pairs(rows);
+std::uint32_t PairSearchBuffers::candidates() const {
+    std::uint32_t all = 0;
+    for (std::size_t i = 0; has_results_ && i < parts_.count(); ++i) {
+        all += memories_[i]->candidates();
     }
-    return bytes;
+    return all;
+}
+
+std::uint32_t PairSearchBuffers::row_count() const {
+    const PairPartMemory& last = *memories_[parts_.count() - 1];
+    return last.first_row() + last.row_count();
+}
+
+const PairPartMemory& PairSearchBuffers::part_of(std::uint32_t row) const {
+    const auto end = memories_.begin() + static_cast<std::ptrdiff_t>(parts_.count());
+    const auto next = std::upper_bound(
+        memories_.begin() + 1, end, row,
+        [](std::uint32_t number, const auto& part) { return number < part->first_row(); });
+    return **(next - 1);
+}
+
+PairLimits PairSearchBuffers::limits() const {
+    return {.reach = device_->limits().maxStorageBufferRange, .memory = memory_limit_};
+}
+
+void PairSearchBuffers::make_parts() {
+    while (memories_.size() < parts_.count()) {
+        memories_.push_back(std::make_unique<PairPartMemory>(*device_, *layout_, question_));
+    }
+    memories_.resize(parts_.count());
+    timestamps_.reserve(passes_of_parts(parts_.count()));
 }
 
 void PairSearchBuffers::lay_out() {
-    const std::uint64_t reached = device_->limits().maxStorageBufferRange;
-    const auto fit = [&](const Bytes& bytes) {
-        return bytes.largest() <= reached && bytes.sum() <= memory_limit_;
-    };
-    Bytes bytes = place_arrays();
-    if (!fit(bytes)) {
-        item_.capacities = needed_;
-        bytes = place_arrays();
+    parts_.fit(limits());
+    make_parts();
+    plan::SearchPush push{};
+    std::uint32_t rows = 0;
+    std::uint32_t records = 0;
+    scratch_bytes_ = 0;
+    for (std::size_t i = 0; i < parts_.count(); ++i) {
+        const PairCounts& room = parts_[i].capacities;
+        const PairBytes bytes = place_pair_arrays(question_.kind(), world_.count(), room, push);
+        scratch_bytes_ = std::max(scratch_bytes_, bytes.scratch);
+        memories_[i]->lay_out(parts_[i], world_.count());
+        rows += room[plan::row_total];
+        records += room[plan::record_total];
     }
-    if (!fit(bytes)) {
-        throw StatusException(
-            {StatusCode::too_large, "the pairs of the world need " + std::to_string(bytes.sum()) +
-                                        " bytes on the device, " + std::to_string(bytes.largest()) +
-                                        " of them in one buffer; Settings::memory_limit is " +
-                                        std::to_string(memory_limit_) + ", and shaders reach " +
-                                        std::to_string(reached) + " of a buffer"});
-    }
-    scratch_bytes_ = bytes.scratch;
-    reserve_with_texels(*device_, scratch_, scratch_texels_, bytes.scratch,
+    reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
                         "nearfield pair scratch texels");
-    records_.reserve(bytes.records);
-    rows_.reserve(bytes.rows);
     if (outputs_.is_set()) {
-        outputs_.reserve(item_.capacities[plan::row_total], item_.capacities[plan::record_total]);
+        outputs_.reserve(rows, records);
     }
-    item_.shapes = world_.shapes();
-    item_.instances = world_.instances();
-    item_.scratch = scratch_.handle();
-    item_.arguments = arguments_.handle();
-    item_.records = records_.handle();
-    item_.rows = rows_.handle();
-    item_.counts = count_memory_.handle();
     bind();
     laid_out_world_ = world_.revision();
     is_laid_out_ = true;
@@ -141,40 +109,39 @@ void PairSearchBuffers::lay_out() {
 void PairSearchBuffers::bind() const {
     using Layout = passes::ComputeLayout;
     layout_->begin_updates();
-    for (std::size_t i = 0; i < item_.sets.size(); ++i) {
-        const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
-            layout_->write_buffer(item_.sets[i], binding, buffer, 0, bytes);
-        };
-        write(Layout::tiles, item_.shapes, world_.shape_bytes());
-        write(Layout::geometry, item_.scratch, scratch_bytes_);
-        layout_->write_texels(item_.sets[i], Layout::texels, world_.texels());
-        layout_->write_texels(item_.sets[i], Layout::scratch_texels, scratch_texels_.get());
-        if (i == passes::PairSearch::of_rows) {
-            write(Layout::points, item_.rows, bytes_of_rows(item_.capacities[plan::row_total]));
-            write(Layout::output, item_.counts, bytes_of_counts);
-            continue;
-        }
-        if (i == passes::PairSearch::of_points) {
-            write(Layout::points, item_.records, records_bytes());
-        } else {
-            write(Layout::points, item_.instances, world_.instance_bytes());
-        }
-        write(Layout::output, item_.arguments, argument_bytes(plan::stages_of_pairs));
+    const VkDescriptorSet set = sets_[0];
+    layout_->write_buffer(set, Layout::tiles, world_.shapes(), 0, world_.shape_bytes());
+    layout_->write_buffer(set, Layout::geometry, scratch_.handle(), 0, scratch_bytes_);
+    layout_->write_buffer(set, Layout::points, world_.instances(), 0, world_.instance_bytes());
+    layout_->write_buffer(set, Layout::output, arguments_.handle(), 0,
+                          argument_bytes(plan::stages_of_pairs));
+    layout_->write_texels(set, Layout::texels, world_.texels());
+    layout_->write_texels(set, Layout::scratch_texels, scratch_texels_.get());
+    for (const auto& part : memories_) {
+        part->bind({.of_instances = set,
+                    .shapes = world_.shapes(),
+                    .shape_bytes = world_.shape_bytes(),
+                    .texels = world_.texels(),
+                    .instances = world_.instances(),
+                    .scratch = scratch_.handle(),
+                    .scratch_bytes = scratch_bytes_,
+                    .scratch_texels = scratch_texels_.get(),
+                    .arguments = arguments_.handle()});
     }
     layout_->end_updates();
 }
 
 /// Lets the commands that follow be about the present memory, and about where poses come from and
 /// results go. Whatever can fail is done here, before anything is recorded.
-void PairSearchBuffers::prepare(bool takes_poses) {
+void PairSearchBuffers::prepare(bool takes_poses, std::uint32_t pairs) {
     checkpoint();
     if (!is_laid_out_) {
         is_bound_ = false;
         lay_out();
     }
-    // A device that is lost leaves no counts of an earlier search.
-    std::memset(count_memory_.data(), 0, bytes_of_counts);
-    count_memory_.flush();
+    for (const auto& part : memories_) {
+        part->clear_counts(pairs);
+    }
     const std::uint32_t revision = takes_poses ? poses_.revision() : 0;
     if (!is_bound_ || bound_poses_ != revision || bound_outputs_ != outputs_.revision()) {
         is_bound_ = is_recorded_ = false;
@@ -188,17 +155,19 @@ void PairSearchBuffers::prepare(bool takes_poses) {
 /// Where poses come from, and where results go.
 void PairSearchBuffers::bind_ends(bool takes_poses) {
     if (takes_poses) {
-        poses_.bind({item_.shapes, world_.shape_bytes()}, world_.texels(),
-                    {item_.instances, world_.instance_bytes()}, item_.push.instances);
+        poses_.bind({world_.shapes(), world_.shape_bytes()}, world_.texels(),
+                    {world_.instances(), world_.instance_bytes()}, world_.count());
     }
     if (outputs_.is_set()) {
-        outputs_.bind({.search = item_,
-                       .shapes = {item_.shapes, world_.shape_bytes()},
-                       .instances = {item_.instances, world_.instance_bytes()},
-                       .scratch = {item_.scratch, scratch_bytes_},
-                       .rows = {item_.rows, bytes_of_rows(item_.capacities[plan::row_total])},
+        outputs_.bind({.shapes = {world_.shapes(), world_.shape_bytes()},
+                       .instances = {world_.instances(), world_.instance_bytes()},
+                       .scratch = {scratch_.handle(), scratch_bytes_},
                        .texels = world_.texels(),
                        .scratch_texels = scratch_texels_.get()});
+        for (std::size_t i = 0; i < memories_.size(); ++i) {
+            const passes::PairSearch::Item& search = memories_[i]->item();
+            outputs_.bind(i, {.search = search, .rows = {search.rows, memories_[i]->row_bytes()}});
+        }
     }
 }
 
@@ -207,16 +176,19 @@ void PairSearchBuffers::write_commands(VkCommandBuffer commands, bool takes_pose
     if (takes_poses) {
         poses_.record(commands, timestamps_);
     }
-    passes_->record(commands, timestamps_, item_);
-    if (outputs_.is_set()) {
-        outputs_.record(commands, timestamps_);
+    passes_->record_boxes(commands, timestamps_, memories_.front()->item());
+    for (std::size_t i = 0; i < memories_.size(); ++i) {
+        passes_->record(commands, timestamps_, memories_[i]->item());
+        if (outputs_.is_set()) {
+            outputs_.record(i, commands, timestamps_);
+        }
     }
 }
 
 /// The commands stay the same as long as the memory does, and where poses come from and results go.
 void PairSearchBuffers::submit(bool takes_poses, Timings& timings) {
     const Stopwatch start;
-    prepare(takes_poses);
+    prepare(takes_poses, 0);
     if (is_recorded_) {
         submission_.submit_again();
     } else {
@@ -227,20 +199,27 @@ void PairSearchBuffers::submit(bool takes_poses, Timings& timings) {
     timings.record += start.milliseconds();
 }
 
-PairCounts PairSearchBuffers::read_counts() const {
-    count_memory_.invalidate();
-    PairCounts counts{};
-    std::memcpy(counts.data(), count_memory_.data(), sizeof(counts));
-    return counts;
+void PairSearchBuffers::read_counts() {
+    counts_.clear();
+    for (const auto& part : memories_) {
+        counts_.push_back(part->read_counts());
+    }
 }
 
-void PairSearchBuffers::read_undecided() {
-    std::uint32_t count = 0;
-    std::memcpy(&count, count_memory_.data() + plan::undecided_rows * sizeof(count), sizeof(count));
-    const auto* const numbers =
-        reinterpret_cast<const std::uint32_t*>(rows_data() + 1 + item_.capacities[plan::row_total]);
-    undecided_.assign(numbers, numbers + std::min(count, counts_[plan::row_total]));
-    std::sort(undecided_.begin(), undecided_.end());
+bool PairSearchBuffers::had_room() const {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        if (!have_room(counts_[i], parts_[i].capacities)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Whether the device has executed the commands that were recorded for the host.
+bool PairSearchBuffers::were_executed() const {
+    return std::none_of(counts_.begin(), counts_.end(), [](const PairCounts& counts) {
+        return counts[plan::pair_total] == not_counted;
+    });
 }
 
 /// What there was room for.
@@ -248,20 +227,26 @@ void PairSearchBuffers::read_results() {
     if (poses_.is_set()) {
         poses_.finish();
     }
-    rows_.invalidate();
-    read_undecided();
-    if (records_.data() != nullptr) {
-        records_.invalidate();
+    undecided_.clear();
+    std::uint32_t rows = 0;
+    for (std::size_t i = 0; i < memories_.size(); ++i) {
+        memories_[i]->read_results(rows, undecided_);
+        rows += memories_[i]->row_count();
+        parts_.note(i, counts_[i]);
     }
+    has_results_ = true;
 }
 
-/// Makes room for what the device has counted, and a little more if that fits.
-void PairSearchBuffers::grow(const PairCounts& counts) {
-    require_countable(counts);
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        needed_[i] = std::max(needed_[i], counts[i]);
+/// Makes room for what the device has counted.
+void PairSearchBuffers::grow() {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        require_searchable(counts_[i]);
+        if (have_room(counts_[i], parts_[i].capacities)) {
+            parts_.note(i, counts_[i]);
+        } else {
+            parts_.grow(i, counts_[i]);
+        }
     }
-    item_.capacities = grown(counts, item_.capacities);
     is_laid_out_ = false;
 }
 
@@ -269,14 +254,20 @@ void PairSearchBuffers::upload(const passes::PairSearch& passes, const plan::Sea
                                std::uint64_t memory_limit) {
     passes_ = &passes;
     memory_limit_ = memory_limit;
+    const bool had_results = std::exchange(has_results_, false);
     if (std::exchange(is_for_host_, false)) {
-        const auto counts = executed_counts();
-        if (counts && !have_room(*counts, item_.capacities)) {
-            grow(*counts);
+        read_counts();
+        if (were_executed() && !had_room()) {
+            grow();
         }
     }
+    if (had_results && parts_.join(limits())) {
+        is_laid_out_ = false;
+    }
     world_.upload(shapes);
-    is_laid_out_ = is_laid_out_ && laid_out_world_ == world_.revision();
+    if (parts_.set_instances(world_.count()) || laid_out_world_ != world_.revision()) {
+        is_laid_out_ = false;
+    }
 }
 
 void PairSearchBuffers::begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
@@ -290,13 +281,13 @@ void PairSearchBuffers::finish(Timings& timings) {
         const Stopwatch waiting;
         submission_.wait();
         is_submitted_ = false;
-        counts_ = read_counts();
+        read_counts();
         timings.device += waiting.milliseconds();
         timestamps_.collect(timings.passes);
-        if (have_room(counts_, item_.capacities)) {
+        if (had_room()) {
             break;
         }
-        grow(counts_);
+        grow();
         // The places that the poses gave are still there; the host may have overwritten the poses.
         submit(false, timings);
     }
@@ -308,10 +299,7 @@ void PairSearchBuffers::record(VkCommandBuffer commands, const passes::PairSearc
                                Timings& timings) {
     upload(passes, shapes, memory_limit);
     const Stopwatch start;
-    prepare(poses_.is_set());
-    std::memcpy(count_memory_.data() + plan::pair_total * sizeof(not_counted), &not_counted,
-                sizeof(not_counted));
-    count_memory_.flush();
+    prepare(poses_.is_set(), not_counted);
     device_->begin_label(commands, "nearfield");
     write_commands(commands, poses_.is_set());
     device_->end_label(commands);
@@ -319,26 +307,21 @@ void PairSearchBuffers::record(VkCommandBuffer commands, const passes::PairSearc
     timings.record += start.milliseconds();
 }
 
-/// Of the commands that were recorded for the host; none if the device has not executed them.
-std::optional<PairCounts> PairSearchBuffers::executed_counts() const {
-    const PairCounts counts = read_counts();
-    return counts[plan::pair_total] == not_counted ? std::nullopt : std::optional(counts);
-}
-
 void PairSearchBuffers::collect(Timings& timings) {
-    const std::optional<PairCounts> counts = executed_counts();
-    if (!counts) {
+    read_counts();
+    if (!were_executed()) {
         throw StatusException(
             {StatusCode::not_executed,
              "the frame of this table counts as complete, but the device did not execute the "
              "commands recorded for it; was the command buffer submitted?"});
     }
     timestamps_.collect(timings.passes);
-    require_countable(*counts);
-    if (!have_room(*counts, item_.capacities)) {
-        throw StatusException(overflow(*counts, item_.capacities));
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        require_searchable(counts_[i]);
+        if (!have_room(counts_[i], parts_[i].capacities)) {
+            throw StatusException(overflow(counts_[i], parts_[i].capacities));
+        }
     }
-    counts_ = *counts;
     read_results();
 }
 

@@ -8,8 +8,9 @@
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/render/instance_buffers.hpp>
-#include <engine/render/pair_counts.hpp>
 #include <engine/render/pair_outputs.hpp>
+#include <engine/render/pair_part_memory.hpp>
+#include <engine/render/pair_parts.hpp>
 #include <engine/render/pose_source.hpp>
 #include <nearfield/timings.hpp>
 #include <passes/compute_layout.hpp>
@@ -18,9 +19,8 @@
 
 #include <shaders/pairs.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,7 +28,8 @@
 namespace nearfield::render {
 
 /// The memory of a search for all pairs of a world's instances, with its descriptor sets and its
-/// submission, or what it has recorded for a host. It only grows.
+/// submission, or what it has recorded for a host. It only grows. Where not all pairs fit at once,
+/// parts of them are searched one after the other, within the same commands.
 class PairSearchBuffers {
 public:
     PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
@@ -48,8 +49,9 @@ public:
     [[nodiscard]] const PairOutputs& outputs() const { return outputs_; }
 
     /// Lets the device find all pairs. The passes must stay until finish(), and nothing may be
-    /// changed. Throws StatusException, (too_large) if the device cannot hold them, or they need
-    /// more bytes than `memory_limit`. Adds the time of recording and submission.
+    /// changed. Throws StatusException, (too_large) if the device cannot hold those of one
+    /// instance, or they need more bytes than `memory_limit`. Adds the time of recording and
+    /// submission.
     void begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
                std::uint64_t memory_limit, Timings& timings);
     /// Whether finish() need not wait for what was begun.
@@ -67,63 +69,48 @@ public:
     /// had no room, which the next begin() or record() makes. Adds the times of the passes.
     void collect(Timings& timings);
     /// Of the last search nothing is of use.
-    void forget_counts() { counts_ = {}; }
+    void forget_counts() { has_results_ = false; }
 
-    [[nodiscard]] const PairCounts& counts() const { return counts_; }
+    /// Of the last search: the pairs that it was about, and those that have rows.
+    [[nodiscard]] std::uint32_t candidates() const;
+    [[nodiscard]] std::uint32_t row_count() const;
     /// The rows that the CPU has to decide, in ascending order.
     [[nodiscard]] std::span<const std::uint32_t> undecided() const { return undecided_; }
     /// In ascending order of the instances.
-    [[nodiscard]] std::span<const plan::PairRowData> rows() const {
-        return {rows_data() + 1, counts_[plan::row_total]};
+    [[nodiscard]] const plan::PairRowData& row(std::uint32_t number) const {
+        const PairPartMemory& part = part_of(number);
+        return part.row(number - part.first_row());
     }
-    /// Only if the host reads them.
-    [[nodiscard]] std::span<const plan::FoundPointData> records() const {
-        return {reinterpret_cast<const plan::FoundPointData*>(records_.data()),
-                counts_[plan::record_total]};
+    /// Those that a row names. Only if the host reads them.
+    [[nodiscard]] std::span<const plan::FoundPointData> records(std::uint32_t row,
+                                                                std::uint32_t first,
+                                                                std::uint32_t count) const {
+        return {part_of(row).records() + first, count};
     }
 
 private:
-    [[nodiscard]] const plan::PairRowData* rows_data() const {
-        return reinterpret_cast<const plan::PairRowData*>(rows_.data());
-    }
-    struct Bytes {
-        std::uint64_t scratch = 0;
-        std::uint64_t records = 0;
-        std::uint64_t rows = 0;
-        std::uint64_t resident_records = 0;
-        std::uint64_t resident_rows = 0;
-
-        [[nodiscard]] std::uint64_t largest() const {
-            return std::max({scratch, records, rows, resident_records, resident_rows});
-        }
-        [[nodiscard]] std::uint64_t sum() const {
-            return scratch + records + rows + resident_records + resident_rows;
-        }
-    };
-    [[nodiscard]] Bytes place_arrays();
-    [[nodiscard]] std::uint64_t records_bytes() const {
-        const std::uint32_t found =
-            kind_.points == plan::FoundPoints::packed ? item_.capacities[plan::record_total] : 0;
-        return std::max(found, 1U) * sizeof(plan::FoundPointData);
-    }
+    [[nodiscard]] const PairPartMemory& part_of(std::uint32_t row) const;
+    [[nodiscard]] PairLimits limits() const;
+    void make_parts();
     void lay_out();
     void bind() const;
     void upload(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
                 std::uint64_t memory_limit);
     // `takes_poses`: of the host; otherwise the instances are placed already.
-    void prepare(bool takes_poses);
+    // `pairs`: see PairPartMemory::clear_counts.
+    void prepare(bool takes_poses, std::uint32_t pairs);
     void bind_ends(bool takes_poses);
     void write_commands(VkCommandBuffer commands, bool takes_poses);
     void submit(bool takes_poses, Timings& timings);
-    [[nodiscard]] PairCounts read_counts() const;
-    void read_undecided();
+    void read_counts();
+    [[nodiscard]] bool had_room() const;
+    [[nodiscard]] bool were_executed() const;
     void read_results();
-    [[nodiscard]] std::optional<PairCounts> executed_counts() const;
-    void grow(const PairCounts& counts);
+    void grow();
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
-    plan::PairSearchKind kind_;
+    const plan::PairQuestion question_;
     gpu::Submission submission_;
     gpu::Timestamps timestamps_;
     const passes::PairSearch* passes_ = nullptr;  // of the last search, as is the limit
@@ -133,24 +120,22 @@ private:
     InstanceBuffers world_;
     gpu::MappedBuffer scratch_;
     gpu::MappedBuffer arguments_;
-    gpu::MappedBuffer records_;
-    gpu::MappedBuffer rows_;
-    gpu::MappedBuffer count_memory_;
     gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
     passes::DescriptorSets sets_;
-    passes::PairSearch::Item item_;
     std::uint64_t scratch_bytes_ = 0;
-    std::uint32_t laid_out_world_ = 0;  // revision of the instances
-    std::uint32_t bound_poses_ = 0;     // revision of those that commands take; 0: none
-    std::uint32_t bound_outputs_ = 0;   // revision of what they leave on the device
+    PairParts parts_;
+    std::vector<std::unique_ptr<PairPartMemory>> memories_;  // of the parts; more may be left
+    std::vector<PairCounts> counts_;                         // of the parts, as they were read last
+    std::uint32_t laid_out_world_ = 0;                       // revision of the instances
+    std::uint32_t bound_poses_ = 0;    // revision of those that commands take; 0: none
+    std::uint32_t bound_outputs_ = 0;  // revision of what they leave on the device
     bool is_submitted_ = false;
     bool is_laid_out_ = false;
     bool is_bound_ = false;     // since then, as are the next two
     bool is_recorded_ = false;  // for submit()
     bool is_for_host_ = false;  // recorded for the host
+    bool has_results_ = false;  // of the last search of these parts
     std::vector<std::uint32_t> undecided_;
-    PairCounts counts_{};
-    PairCounts needed_{};  // capacities without anything to spare
 };
 
 }  // namespace nearfield::render

@@ -43,6 +43,9 @@ struct ResidentArray {
 /// (0, 0); and 2^-44 of the largest world coordinate, the origin's included. The error of a normal
 /// is at most twice this divided by the distance, where the record is neither touching nor
 /// undecided.
+///
+/// Where pairs of contacts are searched in parts (DevicePairTable), a point may have two equal
+/// records, of which a pair names one.
 struct ResidentPairs {
     ResidentArray pairs;         ///< of PairData
     ResidentArray records;       ///< of PairRecordData

@@ -121,9 +121,12 @@ concept HasDistance = requires(const typename Query::Result& result) {
 /// instance added first as `a`, of closest points two. The device finds the pairs; a row that is
 /// read is answered by the CPU.
 ///
-/// Limits: 2^18 instances, 2^24 pairs, and some 50,000 instances whose boxes overlap with that of a
-/// single one; World::update() fails (too_large) beyond these, and where the pairs need more memory
-/// than Settings::memory_limit, or more of one buffer than the device's shaders reach.
+/// Limits: 2^18 instances, and some 50,000 instances whose boxes overlap with that of a single one;
+/// World::update() fails (too_large) beyond these, where what is found of all pairs needs more
+/// memory than Settings::memory_limit, and where the pairs of one instance, or results that stay on
+/// the device, need more of one buffer than the device's shaders reach. Where all pairs at once
+/// need more than either, the device searches them in parts, one after the other, with the same
+/// rows; of contacts that takes up to twice as long.
 ///
 /// World::update() waits for the device. A frame that has other work for the CPU calls
 /// World::submit() first and collect() after that work; what needs the rows of the frame before

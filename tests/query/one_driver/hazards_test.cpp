@@ -11,6 +11,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nearfield::test {
@@ -23,8 +24,9 @@ using test_support::find_hazards;
 /// Every barrier between accesses to buffers, those of the render graph and those beside it.
 class Hazards : public testing::Test {
 protected:
-    void SetUp() override {
-        loader_.emplace(host_.device(), BufferAccesses::lies());
+    void SetUp() override { start(BufferAccesses::lies()); }
+    void start(test_support::Lies lies) {
+        loader_.emplace(host_.device(), std::move(lies));
         Settings settings;
         settings.batches_in_flight = 1;
         Expected<Context> made = Context::create(loader_->host(), drawing(settings));
@@ -38,6 +40,17 @@ protected:
         context_.reset();
         loader_.reset();
         EXPECT_EQ(host_.close(), std::vector<std::string>{});
+    }
+
+    /// Another context, whose shaders reach less of a buffer.
+    void start_anew(std::uint32_t reach) {
+        context_.reset();
+        loader_.reset();
+        test_support::Lies lies = BufferAccesses::lies();
+        lies.properties = [reach](VkPhysicalDeviceProperties& properties) {
+            properties.limits.maxStorageBufferRange = reach;
+        };
+        start(std::move(lies));
     }
 
     /// With an intersection whose tile is large enough for an occlusion query.
@@ -220,6 +233,21 @@ TEST_F(Hazards, AreInNoUpdateOfDevicePairs) {
         update_device_pairs(count, IntersectionTestQuery{});
     }
     check();
+}
+
+/// All parts use the same memory.
+TEST_F(Hazards, AreInNoPartsOfDevicePairs) {
+    constexpr PenetrationPoints vertices = PenetrationPoints::vertices;
+    start_anew(1U << 18U);
+    update_device_pairs(100, PenetrationQuery{.tolerance = 0.2});
+    update_device_pairs(100, ContactQuery{.tolerance = 0.2, .contact_distance = 0.05});
+    update_device_pairs(100, IntersectionTestQuery{});
+    check();
+    start_anew(1U << 20U);
+    leave_device_pairs(
+        PenetrationQuery{.tolerance = 0.2, .points = vertices, .records = false, .resident = true});
+    leave_device_pairs(PenetrationQuery{.tolerance = 0.2, .points = vertices, .resident = true});
+    EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
 }
 
 TEST_F(Hazards, AreInNoQuestionsAboutAWorld) {

@@ -1,0 +1,276 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/render/instance_buffers.hpp>
+#include <engine/render/pair_outputs.hpp>
+#include <engine/render/pair_parts.hpp>
+#include <engine/render/search_memory.hpp>
+
+#include <string>
+
+namespace nearfield::render {
+namespace {
+
+/// Of each stage, where there is no memory for the usual ones.
+constexpr std::uint32_t least_capacity = 64;
+
+[[noreturn]] void refuse(const std::string& what, std::uint64_t bytes, const std::string& limit,
+                         std::uint64_t most) {
+    throw StatusException({StatusCode::too_large, what + " need " + std::to_string(bytes) +
+                                                      " bytes on the device" + limit +
+                                                      std::to_string(most)});
+}
+
+PairCounts sum(const PairCounts& a, const PairCounts& b) {
+    PairCounts both{};
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        both[i] = a[i] + b[i];
+    }
+    return both;
+}
+
+std::uint32_t size_of(const PairPart& part) {
+    return part.end - part.first;
+}
+
+/// So that not every motion needs more.
+PairCounts with_little_more(PairCounts counts) {
+    for (std::uint32_t& count : counts) {
+        count += count / 8;
+    }
+    return counts;
+}
+
+PairCounts with_more(PairCounts counts) {
+    for (std::uint32_t& count : counts) {
+        count += count / 4;
+    }
+    return counts;
+}
+
+/// What each of so many pieces has on average.
+PairCounts share(PairCounts counts, std::uint32_t pieces) {
+    for (std::uint32_t& count : counts) {
+        count = (count + pieces - 1) / pieces;
+    }
+    return counts;
+}
+
+}  // namespace
+
+std::uint64_t bytes_of_pair_rows(std::uint32_t rows) {
+    return (std::uint64_t{rows} + 1) * sizeof(plan::PairRowData) +
+           std::uint64_t{rows} * sizeof(std::uint32_t);
+}
+
+std::uint64_t bytes_of_pair_records(const plan::PairSearchKind& kind,
+                                    const PairCounts& capacities) {
+    const bool has_any = kind.points == plan::FoundPoints::packed;
+    return std::max(has_any ? capacities[plan::record_total] : 0, 1U) *
+           sizeof(plan::FoundPointData);
+}
+
+PairBytes place_pair_arrays(const plan::PairSearchKind& kind, std::uint32_t instances,
+                            const PairCounts& capacities, plan::SearchPush& push) {
+    const auto [edges, points, found, pairs, items, rows] = capacities;
+    push.instances = instances;
+    ScratchLayout layout;
+    push.boxes = layout.units(units_of_boxes(instances));
+    push.lists = layout.units(plan::units_of_list * std::uint64_t{instances});
+    push.pairs = layout.words(2 * std::uint64_t{pairs});
+    push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
+    push.summaries = layout.units(2 * std::uint64_t{pairs});
+    push.verdicts = layout.words(pairs);
+    push.frames = layout.units(pairs);
+    push.first_directions = layout.sums(items);
+    // Two sums for each block of instances, which begin whole units.
+    constexpr std::uint64_t more = std::uint64_t{8} * plan::search_block;
+    const std::uint64_t both = 2 * std::uint64_t{instances} + more;
+    layout.add_stages(items, edges, points, std::max<std::uint64_t>(pairs, both), push);
+    return {layout.bytes(), bytes_of_pair_records(kind, capacities), bytes_of_pair_rows(rows)};
+}
+
+PairParts::PairParts(const plan::PairQuestion& question)
+    : kind_(question.kind()),
+      is_resident_(question.resident),
+      first_capacities_(first_capacities(kind_)),
+      parts_(1) {
+    PairPart& all = parts_.front();
+    all.capacities = first_capacities_;
+    for (std::size_t i = 0; i < all.needed.size(); ++i) {
+        all.needed[i] = std::min(least_capacity, first_capacities_[i]);
+    }
+}
+
+bool PairParts::set_instances(std::uint32_t count) {
+    if (parts_.back().end == count) {
+        return false;
+    }
+    while (parts_.size() > 1 && parts_.back().first >= count) {
+        parts_.pop_back();
+    }
+    parts_.back().end = count;
+    return true;
+}
+
+void PairParts::grow(std::size_t i, const PairCounts& counts) {
+    PairPart& part = parts_[i];
+    for (std::size_t stage = 0; stage < counts.size(); ++stage) {
+        part.needed[stage] = std::max(part.needed[stage], counts[stage]);
+    }
+    part.capacities = grown(counts, part.capacities);
+}
+
+PairBytes PairParts::bytes_of(const PairCounts& capacities) const {
+    plan::SearchPush push{};
+    return place_pair_arrays(kind_, parts_.back().end, capacities, push);
+}
+
+PairBytes PairParts::bytes_of_all() const {
+    PairBytes all;
+    for (const PairPart& part : parts_) {
+        const PairBytes own = bytes_of(part.capacities);
+        all.scratch = std::max(all.scratch, own.scratch);
+        all.records += own.records;
+        all.rows += own.rows;
+    }
+    return all;
+}
+
+PairBytes PairParts::bytes_of_residents() const {
+    PairBytes all;
+    for (const PairPart& part : parts_) {
+        all.records += PairOutputs::bytes_of_records(part.capacities[plan::record_total]);
+        all.rows += PairOutputs::bytes_of_pairs(part.capacities[plan::row_total]);
+    }
+    return is_resident_ ? all : PairBytes{};
+}
+
+bool PairParts::fits(const PairCounts& capacities, const PairLimits& limits) const {
+    return is_countable(capacities) && bytes_of(capacities).largest() <= limits.reach;
+}
+
+/// Also room for what is not known yet.
+PairCounts PairParts::with_much_more(const PairCounts& counts) const {
+    PairCounts more = with_more(counts);
+    for (std::size_t i = 0; i < more.size(); ++i) {
+        more[i] = std::max(more[i], first_capacities_[i]);
+    }
+    return more;
+}
+
+bool PairParts::join(const PairLimits& limits) {
+    if (parts_.size() < 2) {
+        return false;
+    }
+    const auto with_next = [this](std::size_t i) {
+        return sum(parts_[i].needed, parts_[i + 1].needed);
+    };
+    std::size_t least = 0;
+    for (std::size_t i = 1; i + 1 < parts_.size(); ++i) {
+        const bool is_less = bytes_of(with_next(i)).scratch < bytes_of(with_next(least)).scratch;
+        least = is_less ? i : least;
+    }
+    const PairCounts both = with_next(least);
+    const PairCounts twice = sum(both, both);
+    const PairBytes all = bytes_of_all();
+    const PairBytes more = bytes_of(twice);
+    const std::uint64_t memory =
+        std::max(all.scratch, more.scratch) + all.records + more.records + all.rows + more.rows;
+    if (!fits(twice, limits) || memory > limits.memory) {
+        return false;
+    }
+    parts_[least] = {parts_[least].first, parts_[least + 1].end, with_much_more(both), both};
+    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(least) + 1);
+    return true;
+}
+
+/// Makes as few pieces of a part as should fit. The pairs of instances may be uneven: pieces that
+/// do not fit are divided again, once they were counted.
+void PairParts::divide(std::size_t i, const PairLimits& limits) {
+    const PairPart whole = parts_[i];
+    const std::uint32_t size = size_of(whole);
+    if (size == 1) {
+        const PairBytes bytes = bytes_of(whole.needed);
+        refuse("the pairs of one instance", bytes.largest(),
+               " in one buffer, of which shaders reach ", limits.reach);
+    }
+    std::uint32_t pieces = 2;
+    while (pieces < size && !fits(with_more(share(whole.needed, pieces)), limits)) {
+        pieces = std::min(pieces + pieces / 2, size);
+    }
+    const PairCounts needed = share(whole.needed, pieces);
+    std::vector<PairPart> all;
+    for (std::uint32_t piece = 0; piece < pieces; ++piece) {
+        const auto end_of = [&](std::uint64_t pieces_before) {
+            return whole.first + static_cast<std::uint32_t>(pieces_before * size / pieces);
+        };
+        all.push_back({end_of(piece), end_of(piece + 1), with_much_more(needed), needed});
+    }
+    const auto place = parts_.begin() + static_cast<std::ptrdiff_t>(i);
+    parts_.insert(parts_.erase(place), all.begin(), all.end());
+}
+
+/// Leaves each part no more than `room(needed)`. Returns whether any had more.
+template <class Room>
+bool PairParts::shrink(const Room& room) {
+    bool had_more = false;
+    for (PairPart& part : parts_) {
+        const PairCounts most = room(part.needed);
+        for (std::size_t stage = 0; stage < most.size(); ++stage) {
+            had_more = had_more || part.capacities[stage] > most[stage];
+            part.capacities[stage] = std::min(part.capacities[stage], most[stage]);
+        }
+    }
+    return had_more;
+}
+
+void PairParts::fit(const PairLimits& limits) {
+    for (std::size_t i = 0; i < parts_.size();) {
+        PairPart& part = parts_[i];
+        if (!fits(part.capacities, limits)) {
+            part.capacities = with_little_more(part.needed);
+        }
+        if (size_of(part) == 1 && !fits(part.capacities, limits)) {
+            part.capacities = part.needed;
+        }
+        if (fits(part.capacities, limits)) {
+            ++i;
+        } else {
+            divide(i, limits);
+        }
+    }
+    fit_memory(limits);
+}
+
+/// Smaller parts need less scratch memory, and leave as much as larger ones.
+void PairParts::fit_memory(const PairLimits& limits) {
+    for (;;) {
+        const PairBytes all = bytes_of_all();
+        const PairBytes residents = bytes_of_residents();
+        const std::uint64_t found = all.records + all.rows + residents.records + residents.rows;
+        const bool is_reached = residents.largest() <= limits.reach;
+        if (is_reached && all.scratch + found <= limits.memory) {
+            return;
+        }
+        if (shrink(with_little_more)) {
+            continue;
+        }
+        const auto largest = std::max_element(
+            parts_.begin(), parts_.end(), [this](const PairPart& a, const PairPart& b) {
+                return bytes_of(a.capacities).scratch < bytes_of(b.capacities).scratch;
+            });
+        const std::uint64_t least_scratch = bytes_of({}).scratch;
+        if (is_reached && size_of(*largest) > 1 && least_scratch + found <= limits.memory) {
+            divide(static_cast<std::size_t>(largest - parts_.begin()), limits);
+        } else if (shrink([](const PairCounts& needed) { return needed; })) {
+            continue;
+        } else if (!is_reached) {
+            refuse("the pairs that stay", residents.largest(),
+                   " in one buffer, of which shaders reach ", limits.reach);
+        } else {
+            refuse("the pairs of the world", all.scratch + found, "; Settings::memory_limit is ",
+                   limits.memory);
+        }
+    }
+}
+
+}  // namespace nearfield::render

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <engine/plan/pair_question.hpp>
+#include <engine/render/pair_counts.hpp>
+
+#include <shaders/push.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::render {
+
+/// Bytes that a search for pairs needs: of scratch memory, which its parts use in turns, and of
+/// what the host reads of each part.
+struct PairBytes {
+    std::uint64_t scratch = 0;
+    std::uint64_t records = 0;
+    std::uint64_t rows = 0;
+
+    [[nodiscard]] std::uint64_t largest() const { return std::max({scratch, records, rows}); }
+};
+
+/// Those of the rows of a part, of one more, and of the numbers of rows that the CPU decides.
+[[nodiscard]] std::uint64_t bytes_of_pair_rows(std::uint32_t rows);
+/// Those of records that the host reads, if it reads any.
+[[nodiscard]] std::uint64_t bytes_of_pair_records(const plan::PairSearchKind& kind,
+                                                  const PairCounts& capacities);
+/// Says where a part has its arrays in the scratch memory, behind the boxes of all `instances`.
+[[nodiscard]] PairBytes place_pair_arrays(const plan::PairSearchKind& kind, std::uint32_t instances,
+                                          const PairCounts& capacities, plan::SearchPush& push);
+
+/// Instances that follow one another, whose pairs are searched at once: those that have one of them
+/// first.
+struct PairPart {
+    std::uint32_t first = 0;
+    std::uint32_t end = 0;
+    PairCounts capacities{};
+    PairCounts needed{};  ///< without anything to spare, as far as that is known
+};
+
+/// How much memory a search may use.
+struct PairLimits {
+    std::uint64_t reach = 0;   ///< in one buffer, as far as shaders reach
+    std::uint64_t memory = 0;  ///< in all buffers
+};
+
+/// The parts in which the pairs of a world are searched one after the other: one, unless that does
+/// not fit. Together they have all instances.
+class PairParts {
+public:
+    explicit PairParts(const plan::PairQuestion& question);
+
+    [[nodiscard]] std::size_t count() const { return parts_.size(); }
+    [[nodiscard]] const PairPart& operator[](std::size_t i) const { return parts_[i]; }
+
+    /// Of how many instances they are from now on. Returns whether they are others.
+    bool set_instances(std::uint32_t count);
+    /// Takes down what a search has counted in a part that had room for it.
+    void note(std::size_t i, const PairCounts& counts) { parts_[i].needed = counts; }
+    /// Makes room for what a search has counted in a part without room for it, and for a little
+    /// more. Call fit() then.
+    void grow(std::size_t i, const PairCounts& counts);
+    /// Joins the two neighbours that need least, if twice as much would fit. Returns whether it
+    /// did; call fit() then. Precondition: all parts were noted.
+    bool join(const PairLimits& limits);
+    /// Divides parts that do not fit with a little to spare. Throws StatusException (too_large) if
+    /// one instance does not fit with nothing to spare, or what the search finds.
+    void fit(const PairLimits& limits);
+
+private:
+    [[nodiscard]] PairBytes bytes_of(const PairCounts& capacities) const;
+    [[nodiscard]] PairBytes bytes_of_all() const;
+    [[nodiscard]] PairBytes bytes_of_residents() const;
+    [[nodiscard]] bool fits(const PairCounts& capacities, const PairLimits& limits) const;
+    [[nodiscard]] PairCounts with_much_more(const PairCounts& counts) const;
+    void divide(std::size_t i, const PairLimits& limits);
+    template <class Room>
+    bool shrink(const Room& room);
+    void fit_memory(const PairLimits& limits);
+
+    plan::PairSearchKind kind_;
+    bool is_resident_;
+    PairCounts first_capacities_;
+    std::vector<PairPart> parts_;
+};
+
+}  // namespace nearfield::render

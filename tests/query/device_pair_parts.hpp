@@ -1,0 +1,168 @@
+#pragma once
+
+#include <tests/query/device_pairs.hpp>
+#include <tests/support/allocations.hpp>
+#include <tests/support/fake_loader.hpp>
+#include <tests/support/watched_loader.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace nearfield::test {
+
+/// The calls of the context whose device reaches little.
+struct CallsOfParts {
+    int dispatches = 0;  ///< indirect ones of the last recording: as many for each part
+    int submissions = 0;
+    int objects = 0;  ///< made or destroyed
+    std::uint64_t allocations_below = 0;
+};
+inline CallsOfParts calls_of_parts;  // entry points have no user data
+
+/// Two worlds that are alike: world() is on the device as it is, and small_world() on one whose
+/// shaders reach so little of a buffer that pairs are searched in parts.
+class DevicePairPartsTest : public DevicePairsOfHostTest {
+protected:
+    void TearDown() override {
+        small_world_.reset();
+        small_.reset();
+        loader_.reset();
+        DevicePairsOfHostTest::TearDown();
+    }
+
+    /// `reach`: in bytes. Before anything is added.
+    void make_small(std::uint32_t reach, Settings settings = {}) {
+        test_support::Lies lies =
+            test_support::watched(host_device(), [](const test_support::WatchedCall& call) {
+                calls_of_parts.dispatches *= call.name == "vkBeginCommandBuffer" ? 0 : 1;
+                calls_of_parts.dispatches += call.name == "vkCmdDispatchIndirect" ? 1 : 0;
+                calls_of_parts.submissions += call.name == "vkQueueSubmit" ? 1 : 0;
+                calls_of_parts.objects += call.makes() || call.destroys() ? 1 : 0;
+                calls_of_parts.allocations_below += call.allocations;
+            });
+        lies.properties = [reach](VkPhysicalDeviceProperties& properties) {
+            properties.limits.maxStorageBufferRange = reach;
+        };
+        settings.pipelines_on_demand = true;
+        loader_.emplace(host_device(), std::move(lies));
+        Expected<Context> made = Context::create(loader_->host(), settings);
+        ASSERT_TRUE(made.has_value()) << made.error().text();
+        small_.emplace(std::move(*made));
+        small_world_.emplace(std::move(*World::create(*small_)));
+    }
+
+    [[nodiscard]] Context& small_context() { return *small_; }
+    [[nodiscard]] World& small_world() { return *small_world_; }
+
+    /// Adds to both; what was added has a number.
+    std::size_t add_shape_to_both(const Rings& rings) {
+        shapes_of_both_.emplace_back(add_shape(rings), *small_->add_shape(rings));
+        return shapes_of_both_.size() - 1;
+    }
+    void add_to_both(std::size_t shape, const Pose& pose) {
+        const auto& [own, other] = shapes_of_both_[shape];
+        added_.emplace_back(add(own, pose), *small_world_->add({.shape = other, .pose = pose}));
+    }
+    void move_both(std::size_t i, const Pose& pose) {
+        ASSERT_TRUE(world().move(added_[i].first, pose).ok());
+        ASSERT_TRUE(small_world_->move(added_[i].second, pose).ok());
+    }
+    void set_filter_of_both(std::size_t i, std::uint32_t category, std::uint32_t mask) {
+        ASSERT_TRUE(world().set_filter(added_[i].first, category, mask).ok());
+        ASSERT_TRUE(small_world_->set_filter(added_[i].second, category, mask).ok());
+    }
+    void remove_last_of_both() {
+        ASSERT_TRUE(world().remove(added_.back().first).ok());
+        ASSERT_TRUE(small_world_->remove(added_.back().second).ok());
+        added_.pop_back();
+    }
+    [[nodiscard]] std::size_t size_of_both() const { return added_.size(); }
+    template <class Query>
+    static DevicePairTable<Query> table_of(const Query& query, double reach = 0.05) {
+        if constexpr (HasDistance<Query>) {
+            return {query, reach};
+        } else {
+            return DevicePairTable<Query>(query);
+        }
+    }
+    /// How many dispatches a part has.
+    template <class Query>
+    int dispatches_of_a_part(const Query& query) {
+        Expected<World> few = World::create(*small_);
+        const ShapeHandle shape = *small_->add_shape(rectangle({0, 0}, {1, 1}));
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_TRUE(few->add({.shape = shape}).has_value());
+        }
+        DevicePairTable<Query> table = table_of(query);
+        EXPECT_TRUE(few->update(table).ok());
+        EXPECT_GT(calls_of_parts.dispatches, 0);
+        return calls_of_parts.dispatches;
+    }
+    /// Stars that overlap, all in a square.
+    void add_crowd(Random& random, int count, double extent) {
+        const std::size_t shape = add_shape_to_both(star(random, 20, 0.5));
+        for (int i = 0; i < count; ++i) {
+            add_to_both(shape, any_pose(random, extent));
+        }
+    }
+
+    /// All that a table says.
+    template <class Query>
+    static std::vector<double> numbers_of(DevicePairTable<Query>& table) {
+        std::vector<double> all{1.0 * table.candidates(), 1.0 * table.left_to_cpu(),
+                                1.0 * table.size()};
+        for (std::uint32_t i = 0; i < table.size(); ++i) {
+            const auto row = table.row(i);
+            EXPECT_TRUE(row.has_value()) << row.error().text();
+            all.insert(all.end(), {1.0 * row->a.index, 1.0 * row->b.index, row->error_bound,
+                                   row->intersects ? 1.0 : 0.0});
+            if constexpr (requires { row->count; }) {
+                all.push_back(row->count);
+            }
+            if constexpr (requires { row->distance; }) {
+                all.push_back(row->distance);
+            }
+            if constexpr (requires { row->deepest; }) {
+                all.insert(all.end(), {row->deepest.depth, row->deepest.point.x,
+                                       row->deepest.point.y, row->deepest.nearest.x});
+            }
+            add_lists(table, i, all);
+        }
+        return all;
+    }
+
+private:
+    template <class Query>
+    static void add_lists(DevicePairTable<Query>& table, std::uint32_t row,
+                          std::vector<double>& all) {
+        if constexpr (requires { table.query().records; }) {
+            if (table.query().records) {
+                std::vector<typename Query::Result::Record> records;
+                EXPECT_TRUE(table.records(row, records).ok());
+                for (const auto& one : records) {
+                    all.insert(all.end(), {one.point.x, one.point.y, one.nearest.x, one.nearest.y});
+                }
+            }
+        }
+        if constexpr (std::is_same_v<Query, ContactQuery>) {
+            std::vector<ContactCluster> manifold;
+            EXPECT_TRUE(table.manifold(row, manifold).ok());
+            for (const ContactCluster& one : manifold) {
+                all.insert(all.end(),
+                           {one.first.x, one.last.y, one.normal.x, one.normal.y, 1.0 * one.count});
+            }
+        }
+    }
+
+    std::optional<test_support::FakeLoader> loader_;
+    std::optional<Context> small_;
+    std::optional<World> small_world_;
+    std::vector<std::pair<ShapeHandle, ShapeHandle>> shapes_of_both_;
+    std::vector<std::pair<InstanceHandle, InstanceHandle>> added_;
+};
+
+}  // namespace nearfield::test

@@ -1,0 +1,164 @@
+// Searches for pairs in parts, for commands and shaders of a host.
+
+#include <tests/query/device_pair_parts.hpp>
+#include <tests/support/host_frames.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 32000;
+constexpr std::uint32_t little = 1U << 20U;
+
+class DevicePairPartsForHosts : public DevicePairPartsTest {
+protected:
+    /// What stays on the device: as many of each as the headers say.
+    struct Residents {
+        std::vector<PairData> pairs;
+        std::vector<PairRecordData> records;
+    };
+    Residents read(const ResidentPairs& resident) {
+        Residents all;
+        read(resident.pairs, resident.state, all.pairs);
+        read(resident.records, resident.state, all.records);
+        return all;
+    }
+
+private:
+    template <class Data>
+    void read(const ResidentArray& array, const ResidentState& state, std::vector<Data>& all) {
+        const auto header_words =
+            gpu().read(array.header.buffer, array.header.offset, sizeof(ResidentHeaderData), state);
+        ResidentHeaderData header;
+        std::memcpy(static_cast<void*>(&header), header_words.data(), sizeof(header));
+        EXPECT_EQ(header.overflow, 0U);
+        ASSERT_LE(header.count, array.capacity);
+        all.resize(header.count);
+        const auto words = gpu().read(array.buffer, 0, all.size() * sizeof(Data), state);
+        std::memcpy(static_cast<void*>(all.data()), words.data(), all.size() * sizeof(Data));
+    }
+};
+
+/// Where two edges are as near, either may be the nearest: points that are searched together
+/// differ.
+bool are_alike(const PairRecordData& a, const PairRecordData& b) {
+    return a.point[0] == b.point[0] && a.point[1] == b.point[1] && a.edge == b.edge &&
+           std::abs(a.distance - b.distance) < 1e-6F;
+}
+
+TEST_F(DevicePairPartsForHosts, AreRecordedWithRoomForWhatTheyFound) {
+    ASSERT_NO_FATAL_FAILURE(make_small(little));
+    Random random(seed);
+    add_crowd(random, 200, 2.5);
+    const PenetrationQuery query{.tolerance = 0.02};
+    const int dispatches = dispatches_of_a_part(query);
+    DevicePairTable<PenetrationQuery> whole(query);
+    ASSERT_TRUE(world().update(whole).ok());
+    DevicePairTable<PenetrationQuery> in_parts(query);
+    test_support::HostFrames frames(host_device(), 1);
+    Status status;
+    std::uint64_t frame = 0;
+    for (bool is_complete = false; !is_complete && frame < 12; ++frame) {
+        const VkCommandBuffer commands = frames.begin(frame);
+        calls_of_parts.dispatches = 0;
+        status = small_world().record(in_parts, {.commands = commands, .frame = frame});
+        ASSERT_TRUE(status.ok()) << status.text();
+        frames.submit(frame);
+        frames.wait(frame);
+        small_context().frame_completed(frame);
+        status = in_parts.collect();
+        is_complete = status.ok();
+        EXPECT_TRUE(is_complete || status.code() == StatusCode::overflow) << status.text();
+        EXPECT_EQ(small_world().is_recorded(in_parts), is_complete);
+    }
+    ASSERT_TRUE(status.ok()) << status.text();
+    EXPECT_GE(calls_of_parts.dispatches / dispatches, 3);
+    EXPECT_TRUE(numbers_of(in_parts) == numbers_of(whole));
+    ASSERT_TRUE(in_parts.collect().ok());
+    EXPECT_TRUE(numbers_of(in_parts) == numbers_of(whole));
+}
+
+/// The parts follow one another.
+TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
+    ASSERT_NO_FATAL_FAILURE(make_small(little));
+    Random random(seed + 1);
+    add_crowd(random, 140, 3.0);
+    for (const bool records : {true, false}) {
+        const PenetrationQuery query{.tolerance = 0.05,
+                                     .points = PenetrationPoints::vertices,
+                                     .records = records,
+                                     .resident = true};
+        const int dispatches = dispatches_of_a_part(query);
+        DevicePairTable<PenetrationQuery> whole(query);
+        DevicePairTable<PenetrationQuery> in_parts(query);
+        ASSERT_TRUE(world().update(whole).ok());
+        const Status status = small_world().update(in_parts);
+        ASSERT_TRUE(status.ok()) << status.text();
+        EXPECT_GE(calls_of_parts.dispatches / dispatches, 2);
+        const Residents expected = read(*whole.resident());
+        const Residents found = read(*in_parts.resident());
+        EXPECT_GT(expected.pairs.size(), 500U);
+        ASSERT_EQ(found.pairs.size(), expected.pairs.size());
+        ASSERT_EQ(found.records.size(), expected.records.size());
+        for (std::size_t i = 0; i < expected.pairs.size(); ++i) {
+            ASSERT_EQ(std::memcmp(&found.pairs[i], &expected.pairs[i], sizeof(PairData)), 0) << i;
+        }
+        for (std::size_t i = 0; i < expected.records.size(); ++i) {
+            ASSERT_TRUE(are_alike(found.records[i], expected.records[i])) << i;
+        }
+    }
+}
+
+/// Each part has all records that its rows name, whose instances may be those of other parts.
+TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
+    ASSERT_NO_FATAL_FAILURE(make_small(little));
+    Random random(seed + 2);
+    add_crowd(random, 60, 2.0);
+    const ContactQuery query{.tolerance = 0.1, .contact_distance = 0.05, .resident = true};
+    const int dispatches = dispatches_of_a_part(query);
+    DevicePairTable<ContactQuery> whole(query);
+    DevicePairTable<ContactQuery> in_parts(query);
+    ASSERT_TRUE(world().update(whole).ok());
+    const Status status = small_world().update(in_parts);
+    ASSERT_TRUE(status.ok()) << status.text();
+    EXPECT_GE(calls_of_parts.dispatches / dispatches, 2);
+    const Residents expected = read(*whole.resident());
+    const Residents found = read(*in_parts.resident());
+    EXPECT_GE(found.records.size(), expected.records.size());
+    ASSERT_EQ(found.pairs.size(), expected.pairs.size());
+    for (std::size_t i = 0; i < expected.pairs.size(); ++i) {
+        const PairData& one = expected.pairs[i];
+        const PairData& other = found.pairs[i];
+        ASSERT_TRUE(one.a == other.a && one.b == other.b && one.count == other.count &&
+                    one.flags == other.flags)
+            << i;
+        ASSERT_EQ(one.record_count, other.record_count);
+        ASSERT_EQ(one.count_of_b, other.count_of_b);
+        for (std::uint32_t k = 0; k < one.record_count; ++k) {
+            ASSERT_TRUE(are_alike(expected.records[one.first_record + k],
+                                  found.records[other.first_record + k]));
+        }
+        for (std::uint32_t k = 0; k < one.count_of_b; ++k) {
+            ASSERT_TRUE(are_alike(expected.records[one.first_of_b + k],
+                                  found.records[other.first_of_b + k]));
+        }
+    }
+}
+
+/// The host's shaders have to reach all that stays.
+TEST_F(DevicePairPartsForHosts, RefuseWhatTheHostCannotReach) {
+    ASSERT_NO_FATAL_FAILURE(make_small(little));
+    Random random(seed + 3);
+    add_crowd(random, 250, 2.5);
+    DevicePairTable<PenetrationQuery> table({.tolerance = 0.02, .resident = true});
+    const Status status = small_world().update(table);
+    EXPECT_EQ(status.code(), StatusCode::too_large) << status.text();
+    EXPECT_NE(status.message().find("the pairs that stay need"), std::string::npos)
+        << status.text();
+}
+
+}  // namespace
+}  // namespace nearfield::test
