@@ -6,7 +6,10 @@
 #include <shaders/pairs.h>
 #include <tests/driver/device_world.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <string_view>
+#include <vector>
 
 namespace nearfield::test {
 namespace {
@@ -23,13 +26,18 @@ enum class Way {
     by_halves,  ///< submitted, and then collected
     on_device,  ///< at once, at poses in a buffer of the host's; results stay there too
     recorded,   ///< likewise, into a command buffer of the host, which submits it
+    in_parts,   ///< at once, on a device whose shaders do not reach the memory for all pairs
 };
 
 /// A table of pairs that the device finds; in the first step there is not room for all of them.
 class PairsOfDevice : public DeviceWorld {
 public:
-    explicit PairsOfDevice(Way way) : way_(way), table_(PenetrationQuery{.tolerance = 0.05}) {
-        driver().let_shaders_find({passes::ComputeLayout::output, pairs_found, word_of_pairs});
+    explicit PairsOfDevice(Way way)
+        : DeviceWorld(way == Way::in_parts ? 1U << 21U : 1U << 30U),
+          way_(way),
+          table_(PenetrationQuery{.tolerance = 0.05}) {
+        driver().let_shaders_find(
+            {passes::ComputeLayout::output, pairs_found, word_of_pairs, true});
         poses_.buffer = driver().make_buffer();
         poses_.size = 1U << 20U;
         poses_.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
@@ -37,7 +45,7 @@ public:
 
     [[nodiscard]] Status submit() override { return world().submit(table_); }
     [[nodiscard]] Status ask() override {
-        if (way_ == Way::at_once) {
+        if (way_ == Way::at_once || way_ == Way::in_parts) {
             return world().update(table_);
         }
         if (way_ == Way::on_device) {
@@ -109,7 +117,21 @@ TEST_P(DevicePairsOfDriver, SayThatHostMemoryRunsOutAndWorkAfterwards) {
 
 INSTANTIATE_TEST_SUITE_P(Ways, DevicePairsOfDriver,
                          ::testing::Values(Way::at_once, Way::by_halves, Way::on_device,
-                                           Way::recorded));
+                                           Way::recorded, Way::in_parts));
+
+/// The second search, which has room for all, has two; the first one has one.
+TEST(DevicePairsOfLittleReach, HaveTwoParts) {
+    const auto dispatches = [](Way way) {
+        PairsOfDevice pairs(way);
+        pairs.driver().forget_calls();
+        pairs.expect_to_work();
+        const std::vector<std::string_view> calls = pairs.driver().calls();
+        pairs.expect_to_leave_nothing();
+        return std::count(calls.begin(), calls.end(), "vkCmdDispatchIndirect");
+    };
+    EXPECT_GT(dispatches(Way::at_once), 0);
+    EXPECT_EQ(2 * dispatches(Way::in_parts), 3 * dispatches(Way::at_once));
+}
 
 /// As nothing of the context, a table that is still on the device leaves nothing.
 TEST(DevicePairsInFlight, AreWaitedForByTheirDestructor) {

@@ -51,7 +51,8 @@ std::vector<std::string_view> calls_of(const MakeDeviceWorld& make, Step step) {
 
 }  // namespace
 
-DeviceWorld::DeviceWorld() {
+DeviceWorld::DeviceWorld(std::uint32_t storage_range) {
+    driver().set_storage_range(storage_range);
     life_.take_all_before(World::Step::submit_first);
     Expected<nearfield::World> world = nearfield::World::create(life_.context());
     EXPECT_TRUE(world.has_value()) << world.error().text();

@@ -24,7 +24,8 @@ public:
     };
     static constexpr Step steps[] = {Step::first, Step::moved, Step::larger};
 
-    DeviceWorld();
+    /// `storage_range`: how much of a buffer shaders reach.
+    explicit DeviceWorld(std::uint32_t storage_range = 1U << 30U);
     virtual ~DeviceWorld() = default;
     DeviceWorld(const DeviceWorld&) = delete;
     DeviceWorld& operator=(const DeviceWorld&) = delete;

@@ -48,6 +48,8 @@ public:
     /// Sets the queue families of the device, by what they can do, and the one of the host's queue.
     /// Default: one that draws and computes.
     void set_queue_families(std::vector<VkQueueFlags> families, std::uint32_t used);
+    /// Sets VkPhysicalDeviceLimits::maxStorageBufferRange.
+    void set_storage_range(std::uint32_t bytes);
     /// The number of buffers and images so far that were made for several queue families.
     [[nodiscard]] std::size_t shared_objects() const;
 
@@ -95,6 +97,7 @@ public:
         std::uint32_t binding = 0;
         std::uint32_t count = 0;
         std::uint32_t word = 0;
+        bool is_divided = false;  ///< `count`, among all such descriptors of a submission
     };
     void let_shaders_find(const Finding& finding);
 

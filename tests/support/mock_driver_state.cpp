@@ -205,6 +205,7 @@ void MockDriver::State::write_results(Number commands, const std::set<Number>& u
 }
 
 void MockDriver::State::write_counts(const std::set<Number>& used) {
+    std::vector<std::span<std::uint32_t>> all;
     for (const Number number_used : used) {
         const MockObject& set = objects[number_used];
         const auto range = finding ? set.ranges.find(finding->binding) : set.ranges.end();
@@ -212,13 +213,15 @@ void MockDriver::State::write_counts(const std::set<Number>& used) {
             continue;
         }
         const auto [first, count] = range->second;
-        const Number buffer = set.needs.at(finding->binding);
-        const std::span words = words_of(buffer);
+        const std::span words = words_of(set.needs.at(finding->binding));
         if (first + finding->word < words.size() && words[first] == 0) {
-            const std::span found = words.subspan(first, std::min(count, words.size() - first));
-            std::fill(found.begin(), found.end(), 0);
-            found[finding->word] = finding->count;
+            all.push_back(words.subspan(first, std::min(count, words.size() - first)));
         }
+    }
+    for (const std::span<std::uint32_t> found : all) {
+        std::fill(found.begin(), found.end(), 0);
+        found[finding->word] =
+            finding->count / (finding->is_divided ? static_cast<std::uint32_t>(all.size()) : 1);
     }
 }
 

@@ -12,7 +12,7 @@ void perform(Tag_vkGetPhysicalDeviceProperties, VkPhysicalDevice,
     std::strcpy(properties->deviceName, "nearfield mock driver");
     VkPhysicalDeviceLimits& limits = properties->limits;
     limits.maxImageDimension2D = 16384;
-    limits.maxStorageBufferRange = 1U << 30U;
+    limits.maxStorageBufferRange = driver().storage_range;
     limits.maxPerStageDescriptorStorageBuffers = 16;
     limits.maxPerStageDescriptorStorageImages = 4;
     limits.maxComputeWorkGroupInvocations = 1024;
