@@ -193,19 +193,17 @@ void DevicePairTableBase::State::begin(const plan::PairRowData& data) {
     }
 }
 
-void DevicePairTableBase::State::add_point(const plan::FoundPointData& found,
-                                           plan::PlannedQuery& planned) {
-    plan_.points.push_back({plan::found_point(planned, found), plan::PlannedPoint::no_tile});
-    words_.push_back(found.word);
-    ++planned.points().count;
-}
-
-void DevicePairTableBase::State::add_points(std::span<const plan::FoundPointData> all,
+void DevicePairTableBase::State::add_points(std::span<const plan::FoundPointData> found,
                                             plan::PlannedQuery& planned) {
-    planned.points().first = static_cast<std::uint32_t>(plan_.points.size());
-    planned.points().count = 0;
-    for (const plan::FoundPointData& found : all) {
-        add_point(found, planned);
+    plan::PlannedPoints& points = planned.points();
+    points.first = static_cast<std::uint32_t>(plan_.points.size());
+    points.count = static_cast<std::uint32_t>(found.size());
+    plan_.points.resize(points.end());
+    words_.resize(points.end());
+    plan::FoundPlaces place_of(planned);
+    for (std::uint32_t i = 0; i < points.count; ++i) {
+        plan_.points[points.first + i] = {place_of(found[i]), plan::PlannedPoint::no_tile};
+        words_[points.first + i] = found[i].word;
     }
 }
 
@@ -221,11 +219,13 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQue
         return;
     }
     begin(data);
-    add_point({0, data.edge, data.number, data.word}, plan_.queries.front());
+    const plan::FoundPointData deepest{0, data.edge, data.number, data.word};
+    add_points({&deepest, 1}, plan_.queries.front());
     PenetrationResult result;
     resolver_.begin(plan_, plan_.queries.front(), words_);
-    resolver_.for_each_penetration(
-        question_.tolerance, [&](const PenetrationRecord& record) { result.deepest = record; });
+    resolver_.for_each_penetration(question_.tolerance, [&](const records::ResolvedPoint& point) {
+        records::write(point, result.deepest);
+    });
     result.count = data.count & plan::row_count_mask;
     result.intersects = true;
     result.error_bound = plan_.queries.front().budget.bound;
@@ -256,13 +256,11 @@ void DevicePairTableBase::State::records(std::uint32_t index,
         records = std::get<PenetrationResult>(answer_on_cpu(data, true)).records;
         return;
     }
-    records.clear();
     begin(data);
     add_points(buffers_->records(number, data.first_record, data.record_count),
                plan_.queries.front());
     resolver_.begin(plan_, plan_.queries.front(), words_);
-    resolver_.for_each_penetration(
-        question_.tolerance, [&](const PenetrationRecord& record) { records.push_back(record); });
+    static_cast<void>(resolver_.list_penetrations(question_.tolerance, records));
 }
 
 void DevicePairTableBase::State::records(std::uint32_t /*index*/,

@@ -130,8 +130,7 @@ private:
     }
     void require_records() const;
     void begin(const plan::PairRowData& data);
-    void add_point(const plan::FoundPointData& found, plan::PlannedQuery& planned);
-    void add_points(std::span<const plan::FoundPointData> all, plan::PlannedQuery& planned);
+    void add_points(std::span<const plan::FoundPointData> found, plan::PlannedQuery& planned);
     /// Those of a row of the device.
     void find_contacts(const plan::PairRowData& data, std::uint32_t row);
     /// The manifold of a pair of contacts and, if the query asks for them, their records; until the

@@ -1,4 +1,3 @@
-#include <engine/base/interruption.hpp>
 #include <engine/decode/contacts.hpp>
 #include <engine/localize/hierarchy.hpp>
 
@@ -14,17 +13,12 @@ void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
                    std::span<const std::uint32_t> words, double distance,
                    records::PointResolver& resolver, const Use& use) {
     resolver.begin(plan, query, words);
-    SparseCheckpoint<256> checkpoint;
-    const plan::PlannedPoints& points = query.points();
-    for (std::uint32_t i = points.first; i < points.end(); ++i) {
-        checkpoint.step();
-        if ((words[i] & plan::point_resolved) != 0) {
-            const records::ResolvedPoint resolved = resolver.resolve(i);
-            if (resolved.distance <= distance) {
-                use(plan.points[i], resolved);
-            }
-        }
-    }
+    resolver.for_each([words](std::uint32_t i) { return (words[i] & plan::point_resolved) != 0; },
+                      [&](std::uint32_t i, const records::ResolvedPoint& resolved) {
+                          if (resolved.distance <= distance) {
+                              use(plan.points[i], resolved);
+                          }
+                      });
 }
 
 }  // namespace

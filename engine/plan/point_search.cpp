@@ -79,13 +79,10 @@ SearchedQuery searched_query(std::uint32_t index, const PlannedQuery& query, con
             direction_of(query, axis, offset)};
 }
 
-BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found) {
-    if (found.number == 0) {
-        return {found.edge, 0.0};
-    }
-    const std::span<const Vector> vertices = query.a->vertices();
-    const double length = (vertices[query.a->next(found.edge)] - vertices[found.edge]).norm();
-    return {found.edge, found.number / parts_of_length(length, query.budget.cell)};
+void FoundPlaces::enter(std::uint32_t edge) {
+    const std::span<const Vector> vertices = a_.vertices();
+    edge_ = edge;
+    parts_ = parts_of_length((vertices[a_.next(edge)] - vertices[edge]).norm(), cell_);
 }
 
 std::size_t PointSearchBuilder::build(const Plan& plan, std::uint64_t largest_range,

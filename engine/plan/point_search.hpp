@@ -21,8 +21,31 @@ namespace nearfield::plan {
                                            const geometry::Vector& axis,
                                            const geometry::Vector& offset);
 
-/// The point of A's boundary that the device has found.
-[[nodiscard]] BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found);
+/// The points of A's boundary that the device has found for a query, or one direction of it;
+/// fastest where consecutive points lie on the same edge.
+class FoundPlaces {
+public:
+    /// Keeps a reference: A must outlive it.
+    explicit FoundPlaces(const PlannedQuery& query) : a_(*query.a), cell_(query.budget.cell) {}
+
+    [[nodiscard]] BoundaryPoint operator()(const FoundPointData& found) {
+        if (found.number == 0) {
+            return {found.edge, 0.0};
+        }
+        if (found.edge != edge_) {
+            enter(found.edge);
+        }
+        return {found.edge, found.number / parts_};
+    }
+
+private:
+    void enter(std::uint32_t edge);
+
+    const geometry::Polygon& a_;
+    double cell_;
+    std::uint32_t edge_ = UINT32_MAX;  // of which the number of parts is known
+    double parts_ = 1.0;
+};
 
 /// A part of a batch's searches, small enough for the buffers of one.
 struct PointSearch {

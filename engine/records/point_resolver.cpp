@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace nearfield::records {
@@ -34,9 +35,19 @@ void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& quer
     boundary_is_set_ = false;
     points_.clear();
     next_ = 0;
-    rounding_ = query.technique == Technique::cpu ? localize::placement_rounding(*a_, a_->box()) +
-                                                        localize::placement_rounding(*b_, b_->box())
-                                                  : 0.0;
+    block_.begin(*b_);
+    const bool by_search = query.points().source == plan::PointSource::device;
+    has_close_neighbours_ = query.points().margin > plan::search_precision * query.budget.cell;
+    farthest_ = by_search || has_close_neighbours_
+                    ? std::numeric_limits<double>::infinity()
+                    : farthest_in_single_precision * query.budget.cell;
+    touching_.reset();
+    if (query.technique == Technique::cpu) {
+        touching_ = localize::placement_rounding(*a_, a_->box()) +
+                    localize::placement_rounding(*b_, b_->box());
+    } else if (by_search) {
+        touching_ = touching_distance(query.budget.cell, 0);
+    }
 }
 
 narrowphase::Boundary& PointResolver::boundary_of_b() {
@@ -73,81 +84,58 @@ void PointResolver::locate_doubtful(std::uint32_t first) {
                    .reach = plan::reach_of(*query_)});
 }
 
-PointResolver::Found PointResolver::find_doubtful(std::uint32_t index) {
-    if (next_ == points_.size()) {
-        locate_doubtful(index);
-    }
-    const std::uint32_t i = next_++;
-    const std::uint32_t edge = located_.nearest().edge[i];
-    const Vector point = position(*a_, plan_->points[index].point);
-    const bool is_near = located_.nearest().distance[i] <= plan::reach_of(*query_);
-    return {{edge, nearest_on_edge(*b_, edge, point)},
-            is_near && located_.is_inside(i),
-            located_.is_unique(i)};
-}
-
-/// The nearest point of B for one that the device searched: of the edge that it named and its
-/// neighbours, among which single precision may not have been able to choose.
-narrowphase::NearestPoint PointResolver::nearest_of_neighbours(const Vector& point,
-                                                               std::uint32_t edge) const {
-    const geometry::Polygon& polygon = b_->polygon();
-    narrowphase::NearestPoint nearest{edge, nearest_on_edge(*b_, edge, point)};
-    for (const std::uint32_t other : {polygon.previous(edge), polygon.next(edge)}) {
-        const geometry::NearestOnSegment on_other = nearest_on_edge(*b_, other, point);
-        if (on_other.squared_distance < nearest.on_edge.squared_distance) {
-            nearest = {other, on_other};
+/// Finds the nearest points, sides and what else the words of the block's points tell.
+void PointResolver::resolve_block() {
+    block_.find(has_close_neighbours_);
+    for (std::uint32_t i = 0; i < block_.size(); ++i) {
+        sides_[i] = words_[block_.index(i)];
+        if ((sides_[i] & plan::point_doubtful) != 0) {
+            sides_[i] = resolve_doubtful(i);
+        } else if (block_.distance(i) > farthest_) {
+            sides_[i] = resolve_far(i);
         }
     }
-    return nearest;
 }
 
-PointResolver::Found PointResolver::find(const Vector& point, std::uint32_t index) {
-    const std::uint32_t word = words_[index];
-    if ((word & plan::point_doubtful) != 0) {
-        return find_doubtful(index);
+/// A point of the block that the device left in doubt. Returns its word.
+std::uint32_t PointResolver::resolve_doubtful(std::uint32_t i) {
+    if (next_ == points_.size()) {
+        locate_doubtful(block_.index(i));
     }
-    const std::uint32_t edge = word & plan::point_edge_mask;
-    const double tolerance = query_->budget.cell / std::numbers::sqrt2;
-    Found found{{edge, {}}, (word & plan::point_inside) != 0, (word & plan::point_unique) != 0};
-    if (query_->points().margin > plan::search_precision * query_->budget.cell) {
-        found.nearest = nearest_of_neighbours(point, edge);
-        return found;
-    }
-    found.nearest.on_edge = nearest_on_edge(*b_, edge, point);
-    const double far = farthest_in_single_precision * query_->budget.cell;
-    if (query_->points().source != plan::PointSource::device &&
-        found.nearest.on_edge.squared_distance > far * far) {
-        found.nearest = boundary_of_b().nearest(point);
-        found.unique =
-            boundary_of_b().is_unique(point, found.nearest, tolerance * plan::uniqueness_margin);
-    }
-    return found;
+    const std::uint32_t place = next_++;
+    const std::uint32_t edge = located_.nearest().edge[place];
+    block_.set(i, {edge, nearest_on_edge(*b_, edge, block_.point(i))});
+    const bool is_near = located_.nearest().distance[place] <= plan::reach_of(*query_);
+    return (is_near && located_.is_inside(place) ? plan::point_inside : 0U) |
+           (located_.is_unique(place) ? plan::point_unique : 0U);
 }
 
-/// Points nearer to the boundary than this touch it.
-double PointResolver::touching(const plan::PlannedPoint& planned) const {
-    if (query_->technique == Technique::cpu) {
-        return rounding_;
-    }
-    return query_->points().source == plan::PointSource::device
-               ? touching_distance(query_->budget.cell, 0)
-               : touching_distance(plan_->tiles[planned.tile]);
+/// A point of the block whose nearest edge single precision may not have found. Returns its word.
+std::uint32_t PointResolver::resolve_far(std::uint32_t i) {
+    const Vector point = block_.point(i);
+    const double margin = query_->budget.cell / std::numbers::sqrt2 * plan::uniqueness_margin;
+    const narrowphase::NearestPoint nearest = boundary_of_b().nearest(point);
+    block_.set(i, nearest);
+    const bool is_unique = boundary_of_b().is_unique(point, nearest, margin);
+    return (sides_[i] & plan::point_inside) | (is_unique ? plan::point_unique : 0U);
 }
 
-ResolvedPoint PointResolver::resolve(std::uint32_t index) {
-    const plan::PlannedPoint& planned = plan_->points[index];
-    const Vector point = (*positions_)(planned.point);
-    const Found found = find(point, index);
-    const geometry::NearestOnSegment& on_edge = found.nearest.on_edge;
-    const double distance = std::sqrt(on_edge.squared_distance);
-    return {point,
-            on_edge.point,
-            distance,
-            found.nearest.edge,
-            on_edge.parameter,
-            feature_at(*b_, found.nearest.edge, on_edge.parameter),
-            found.inside && distance > touching(planned),
-            found.unique};
+std::size_t PointResolver::list_penetrations(double tolerance,
+                                             std::vector<PenetrationRecord>& records) {
+    records.resize(query_->points().count);
+    std::size_t count = 0;
+    std::size_t deepest = 0;
+    double depth = 0.0;
+    for_each_penetration(tolerance, [&](const ResolvedPoint& resolved) {
+        write(resolved, records[count]);
+        if (resolved.distance > depth) {
+            depth = resolved.distance;
+            deepest = count;
+        }
+        ++count;
+    });
+    records.resize(count);
+    return deepest;
 }
 
 /// Whether a point that the device has found is inside B and deeper than `depth` for certain.
@@ -170,20 +158,19 @@ PenetrationSummary PointResolver::summarize_penetration(double tolerance) {
     const double deep = deepest - 2.0 * plan::depth_margins * points.margin;
     PenetrationSummary summary;
     summary.count = points.left_out;
-    for (std::uint32_t i = points.first; i < points.end(); ++i) {
-        const bool is_certain = is_deeper(i, touching);
-        if (is_certain && plan_->points[i].depth < deep) {
-            ++summary.count;
-            continue;
-        }
-        const ResolvedPoint resolved = resolve(i);
-        if (is_certain || (resolved.inside && resolved.distance > touching)) {
+    const auto may_be_deepest = [&](std::uint32_t i) {
+        const bool is_less_deep = is_deeper(i, touching) && plan_->points[i].depth < deep;
+        summary.count += is_less_deep ? 1 : 0;
+        return !is_less_deep;
+    };
+    for_each(may_be_deepest, [&](std::uint32_t index, const ResolvedPoint& resolved) {
+        if (is_deeper(index, touching) || (resolved.inside && resolved.distance > touching)) {
             ++summary.count;
             if (resolved.distance > summary.deepest.depth) {
-                summary.deepest = penetration_record(resolved);
+                write(resolved, summary.deepest);
             }
         }
-    }
+    });
     return summary;
 }
 

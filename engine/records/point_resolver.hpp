@@ -1,42 +1,36 @@
 #pragma once
 
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/recently_placed.hpp>
 #include <engine/narrowphase/boundary.hpp>
 #include <engine/narrowphase/located_points.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/records/point_block.hpp>
 #include <engine/simd/point_list.hpp>
 #include <engine/simd/transformed_edges.hpp>
 #include <nearfield/result.hpp>
 
 #include <shaders/layout.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace nearfield::records {
 
-/// A point of A relative to the boundary of B, in double precision.
-struct ResolvedPoint {
-    geometry::Vector point;
-    geometry::Vector nearest;  ///< the point of B's boundary nearest to it
-    double distance = 0.0;
-    std::uint32_t edge = 0;  ///< of B: an edge that contains `nearest`
-    double parameter = 0.0;  ///< position on the edge: 0 at its first vertex, 1 at its last
-    Feature feature;         ///< of B: the feature that contains `nearest`
-    bool inside = false;     ///< inside B, and not just touching its boundary
-    bool unique = true;
-};
-
-/// Converts a penetrating point to a record of the result.
-[[nodiscard]] inline PenetrationRecord penetration_record(const ResolvedPoint& resolved) {
+/// Writes the record of a penetrating point. Field by field into its place: a copy of what has just
+/// been written would wait for it.
+inline void write(const ResolvedPoint& resolved, PenetrationRecord& record) {
     const geometry::Vector way = resolved.nearest - resolved.point;
-    return {geometry::to_public(resolved.point),
-            resolved.distance,
-            geometry::to_public(way / resolved.distance),
-            geometry::to_public(resolved.nearest),
-            resolved.feature,
-            resolved.unique};
+    record.point = geometry::to_public(resolved.point);
+    record.depth = resolved.distance;
+    record.direction = geometry::to_public(way / resolved.distance);
+    record.nearest = geometry::to_public(resolved.nearest);
+    record.feature = resolved.feature;
+    record.unique = resolved.unique;
 }
 
 /// How many points penetrate B, and the deepest of them, if any; the first of several.
@@ -52,24 +46,52 @@ public:
     void begin(const plan::Plan& plan, const plan::PlannedQuery& query,
                std::span<const std::uint32_t> words);
 
-    /// Resolves the point of A at an index of Plan::points, whose word is not zero. Indices must
-    /// come in ascending order, and none that is in doubt may be left out.
-    [[nodiscard]] ResolvedPoint resolve(std::uint32_t index);
-
-    /// Calls `use(record)` for the points of a penetration query that penetrate B, in their order.
-    template <class Use>
-    void for_each_penetration(double tolerance, const Use& use) {
-        const double touching = tolerance * static_cast<double>(plan::touching_depth);
-        for (std::uint32_t i = query_->points().first; i < query_->points().end(); ++i) {
-            if ((words_[i] & (plan::point_inside | plan::point_doubtful)) == 0) {
-                continue;
+    /// Calls `use(index, resolved point)` for the query's points that are wanted, in their order.
+    /// `is_wanted(index)`: whether the point at an index of Plan::points is, whose word is then not
+    /// zero. All that are in doubt are wanted.
+    template <class IsWanted, class Use>
+    void for_each(const IsWanted& is_wanted, const Use& use) {
+        const std::uint32_t end = query_->points().end();
+        SparseCheckpoint<4> checkpoint;
+        for (std::uint32_t i = query_->points().first; i < end;) {
+            checkpoint.step();
+            block_.clear();
+            for (; i < end && !block_.is_full(); ++i) {
+                if (is_wanted(i)) {
+                    block_.add(i, (*positions_)(plan_->points[i].point),
+                               words_[i] & plan::point_edge_mask);
+                }
             }
-            const ResolvedPoint resolved = resolve(i);
-            if (resolved.inside && resolved.distance > touching) {
-                use(penetration_record(resolved));
+            resolve_block();
+            for (std::uint32_t k = 0; k < block_.size(); ++k) {
+                const std::uint32_t index = block_.index(k);
+                const bool inside =
+                    (sides_[k] & plan::point_inside) != 0 && block_.distance(k) > touching(index);
+                const bool unique = (sides_[k] & plan::point_unique) != 0;
+                use(index, block_.resolved(k, inside, unique));
             }
         }
     }
+
+    /// Calls `use(resolved point)` for the points of a penetration query that penetrate B, in their
+    /// order.
+    template <class Use>
+    void for_each_penetration(double tolerance, const Use& use) {
+        const double touching = tolerance * static_cast<double>(plan::touching_depth);
+        const auto may_be_inside = [this](std::uint32_t i) {
+            return (words_[i] & (plan::point_inside | plan::point_doubtful)) != 0;
+        };
+        for_each(may_be_inside, [&](std::uint32_t, const ResolvedPoint& resolved) {
+            if (resolved.inside && resolved.distance > touching) {
+                use(resolved);
+            }
+        });
+    }
+
+    /// Replaces a list by the records of these points. Returns the index of the deepest, the first
+    /// of several; 0 if there is none. For queries of which hardly any point does not penetrate B:
+    /// the list is as long as all points at first, which spares initialising what it held before.
+    std::size_t list_penetrations(double tolerance, std::vector<PenetrationRecord>& records);
 
     /// What for_each_penetration() tells of points that the device has found, at less cost: it
     /// makes only those exact that may just touch, or may be the deepest.
@@ -81,18 +103,14 @@ public:
     [[nodiscard]] narrowphase::Boundary& boundary_of_b();
 
 private:
-    /// What is known of a point: B's nearest point, the side, whether it is the only nearest one.
-    struct Found {
-        narrowphase::NearestPoint nearest;
-        bool inside = false;
-        bool unique = true;
-    };
-    [[nodiscard]] Found find(const geometry::Vector& point, std::uint32_t index);
-    [[nodiscard]] Found find_doubtful(std::uint32_t index);
+    void resolve_block();
+    [[nodiscard]] std::uint32_t resolve_doubtful(std::uint32_t i);
+    [[nodiscard]] std::uint32_t resolve_far(std::uint32_t i);
     void locate_doubtful(std::uint32_t first);
-    [[nodiscard]] narrowphase::NearestPoint nearest_of_neighbours(const geometry::Vector& point,
-                                                                  std::uint32_t edge) const;
-    [[nodiscard]] double touching(const plan::PlannedPoint& planned) const;
+    /// Points nearer to the boundary than this touch it.
+    [[nodiscard]] double touching(std::uint32_t index) const {
+        return touching_ ? *touching_ : touching_distance(plan_->tiles[plan_->points[index].tile]);
+    }
     [[nodiscard]] bool is_deeper(std::uint32_t index, double depth) const;
 
     const plan::Plan* plan_ = nullptr;
@@ -108,7 +126,13 @@ private:
     simd::PointList points_;  // that the device left in doubt, some of them
     narrowphase::LocatedPoints located_;
     std::uint32_t next_ = 0;  // of those
-    double rounding_ = 0.0;   // of the points and the boundary; only for queries on the CPU
+    PointBlock block_;
+    std::array<std::uint32_t, PointBlock::capacity> sides_{};  // of its points, as words
+    // The device named the nearest edge or a neighbour as near in single precision.
+    bool has_close_neighbours_ = false;
+    // Beyond this distance, single precision may have named another edge than the nearest.
+    double farthest_ = 0.0;
+    std::optional<double> touching_;  // of all points; otherwise by tile
 };
 
 }  // namespace nearfield::records

@@ -70,7 +70,11 @@ void QueryAnswers::answer_by_search(const Asked& asked, PenetrationResult& resul
         result.count = summary.count;
         result.deepest = summary.deepest;
     } else {
-        collect_penetrations(asked, result);
+        const std::size_t deepest = resolver_.list_penetrations(result.tolerance, result.records);
+        result.count = static_cast<std::uint32_t>(result.records.size());
+        if (result.count > 0) {
+            result.deepest = result.records[deepest];
+        }
     }
     const bool is_known = searched_ != nullptr && cpu::is_reverse(*searched_, planned);
     result.intersects =
@@ -81,13 +85,13 @@ void QueryAnswers::answer_by_search(const Asked& asked, PenetrationResult& resul
 
 void QueryAnswers::collect_penetrations(const Asked& asked, PenetrationResult& result) {
     const bool keep = std::get<PenetrationQuery>(*asked.planned().query).records;
-    resolver_.for_each_penetration(result.tolerance, [&](const PenetrationRecord& record) {
-        if (result.count == 0 || record.depth > result.deepest.depth) {
-            result.deepest = record;
+    resolver_.for_each_penetration(result.tolerance, [&](const records::ResolvedPoint& resolved) {
+        if (result.count == 0 || resolved.distance > result.deepest.depth) {
+            records::write(resolved, result.deepest);
         }
         ++result.count;
         if (keep) {
-            result.records.push_back(record);
+            records::write(resolved, result.records.emplace_back());
         }
     });
 }

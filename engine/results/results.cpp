@@ -27,23 +27,22 @@ void ResultDecoder::add_points(const plan::TileBatch& batch, std::span<const std
 void ResultDecoder::add_found(const plan::PointSearch& search,
                               std::span<const plan::FoundPointData> found,
                               std::span<const float> depths, plan::Plan& plan) {
-    plan::PlannedQuery* query = nullptr;
-    plan::PlannedPoints* points = nullptr;
-    float unit = 1.0F;  // a power of two
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        plan::FoundPointData point = found[i];
-        if (i == 0 || point.direction != found[i - 1].direction) {
-            query = &plan.queries[search.queries[point.direction]];
-            points = &query->points();
-            points->first = static_cast<std::uint32_t>(plan.points.size());
-            unit = static_cast<float>(plan::unit_length_of(*query->b));
+    for (std::size_t i = 0; i < found.size();) {
+        const std::uint32_t direction = found[i].direction;
+        const std::size_t first = i;
+        plan::PlannedQuery& query = plan.queries[search.queries[direction]];
+        plan::PlannedPoints& points = query.points();
+        points.first = static_cast<std::uint32_t>(plan.points.size());
+        const auto unit = static_cast<float>(plan::unit_length_of(*query.b));  // a power of two
+        plan::FoundPlaces place_of(query);
+        for (; i < found.size() && found[i].direction == direction; ++i) {
+            plan::FoundPointData point = found[i];
+            points.left_out += point.number >> plan::left_out_shift;
+            point.number &= (1U << plan::left_out_shift) - 1U;
+            plan.points.push_back({place_of(point), plan::PlannedPoint::no_tile, unit * depths[i]});
+            words_.push_back(point.word);
         }
-        points->left_out += point.number >> plan::left_out_shift;
-        point.number &= (1U << plan::left_out_shift) - 1U;
-        plan.points.push_back(
-            {plan::found_point(*query, point), plan::PlannedPoint::no_tile, unit * depths[i]});
-        words_.push_back(point.word);
-        ++points->count;
+        points.count += static_cast<std::uint32_t>(i - first);
     }
 }
 

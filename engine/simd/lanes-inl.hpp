@@ -144,9 +144,49 @@ struct EdgeLanes {
         return same;
     }
 
-private:
     EdgeLanes() = default;
 };
+
+/// The points of edges nearest to given points, lane by lane.
+struct NearestLanes {
+    Lanes x;
+    Lanes y;
+    Lanes parameter;
+    Lanes squared;  ///< distance
+};
+
+/// Bit for bit what geometry::nearest_on_segment() computes.
+HWY_INLINE NearestLanes nearest_on_edges(const EdgeLanes& edges, Lanes x, Lanes y) {
+    const Tag tag;
+    const Lanes zero = hn::Zero(tag);
+    const Lanes one = hn::Set(tag, 1.0);
+    const Lanes along_x = hn::Sub(edges.end_x, edges.start_x);
+    const Lanes along_y = hn::Sub(edges.end_y, edges.start_y);
+    const Lanes along_of_point = hn::Add(hn::Mul(along_x, hn::Sub(x, edges.start_x)),
+                                         hn::Mul(along_y, hn::Sub(y, edges.start_y)));
+    const Lanes squared_length = hn::Add(hn::Mul(along_x, along_x), hn::Mul(along_y, along_y));
+    const LaneMask after_start =
+        hn::And(hn::Gt(along_of_point, zero), hn::Ne(squared_length, zero));
+    const LaneMask before_end = hn::Lt(along_of_point, squared_length);
+    const Lanes parameter = hn::Div(along_of_point, squared_length);
+    // Computed from the nearer end, which loses less precision.
+    const LaneMask in_first_half = hn::Lt(parameter, hn::Set(tag, 0.5));
+    const Lanes back = hn::Sub(one, parameter);
+    const auto nearest = [&](Lanes start, Lanes end, Lanes along) HWY_ATTR {
+        const Lanes between =
+            hn::IfThenElse(in_first_half, hn::Add(start, hn::Mul(parameter, along)),
+                           hn::Sub(end, hn::Mul(back, along)));
+        // Both ends are kept unchanged, so that a vertex can be distinguished from an edge.
+        return hn::IfThenElse(after_start, hn::IfThenElse(before_end, between, end), start);
+    };
+    const Lanes nearest_x = nearest(edges.start_x, edges.end_x, along_x);
+    const Lanes nearest_y = nearest(edges.start_y, edges.end_y, along_y);
+    const Lanes off_x = hn::Sub(x, nearest_x);
+    const Lanes off_y = hn::Sub(y, nearest_y);
+    return {nearest_x, nearest_y,
+            hn::IfThenElseZero(after_start, hn::IfThenElse(before_end, parameter, one)),
+            hn::Add(hn::Mul(off_x, off_x), hn::Mul(off_y, off_y))};
+}
 
 /// Negative in a lane if the ray from a point to the right crosses the edge.
 HWY_INLINE Lanes crossings(const EdgeLanes& edges, Lanes x, Lanes y) {

@@ -50,33 +50,6 @@ HWY_INLINE Lanes squared_positive(Lanes length) {
     return hn::Mul(left, left);
 }
 
-/// The squared distances of a point from edges, bit for bit those of
-/// geometry::nearest_on_segment().
-HWY_INLINE Lanes exact_squared(const EdgeLanes& edges, Lanes x, Lanes y) {
-    const Tag tag;
-    const Lanes zero = hn::Zero(tag);
-    const Lanes one = hn::Set(tag, 1.0);
-    const Lanes along_x = hn::Sub(edges.end_x, edges.start_x);
-    const Lanes along_y = hn::Sub(edges.end_y, edges.start_y);
-    const Lanes along_of_point = hn::Add(hn::Mul(along_x, hn::Sub(x, edges.start_x)),
-                                         hn::Mul(along_y, hn::Sub(y, edges.start_y)));
-    const Lanes squared_length = hn::Add(hn::Mul(along_x, along_x), hn::Mul(along_y, along_y));
-    const Lanes parameter = hn::Div(along_of_point, squared_length);
-    const LaneMask after_start =
-        hn::And(hn::Gt(along_of_point, zero), hn::Ne(squared_length, zero));
-    const LaneMask before_end = hn::Lt(along_of_point, squared_length);
-    const LaneMask in_first_half = hn::Lt(parameter, hn::Set(tag, 0.5));
-    const auto nearest = [&](Lanes start, Lanes end, Lanes along) HWY_ATTR {
-        const Lanes between =
-            hn::IfThenElse(in_first_half, hn::Add(start, hn::Mul(parameter, along)),
-                           hn::Sub(end, hn::Mul(hn::Sub(one, parameter), along)));
-        return hn::IfThenElse(after_start, hn::IfThenElse(before_end, between, end), start);
-    };
-    const Lanes off_x = hn::Sub(x, nearest(edges.start_x, edges.end_x, along_x));
-    const Lanes off_y = hn::Sub(y, nearest(edges.start_y, edges.end_y, along_y));
-    return hn::Add(hn::Mul(off_x, off_x), hn::Mul(off_y, off_y));
-}
-
 /// Vertices and edges near a shape of few edges, which is tested as a whole against each box.
 class NearFew {
     static_assert(max_few_edges <= 32, "one bit per vertex");
@@ -194,7 +167,7 @@ private:
         double distances[max_lanes];
         double exact[max_lanes];
         hn::StoreU(squared, tag, distances);
-        hn::StoreU(exact_squared(EdgeLanes(edges, range.first), x, y), tag, exact);
+        hn::StoreU(nearest_on_edges(EdgeLanes(edges, range.first), x, y).squared, tag, exact);
         for (; found != 0; found &= found - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(found));
             if (range.first + lane < range.end && distances[lane] <= bound()) {

@@ -24,39 +24,17 @@ constexpr std::uint32_t max_together = max_lanes;
 HWY_INLINE void write_points(const EdgeArrays& edges, Lanes nearest_edge, Lanes x, Lanes y,
                              std::size_t i, const NearestArrays& nearest) {
     const Tag tag;
-    const Lanes one = hn::Set(tag, 1.0);
     const auto edge = hn::ConvertTo(hn::RebindToSigned<Tag>(), nearest_edge);
-    const Lanes start_x = hn::GatherIndex(tag, edges.start_x, edge);
-    const Lanes start_y = hn::GatherIndex(tag, edges.start_y, edge);
-    const Lanes end_x = hn::GatherIndex(tag, edges.end_x, edge);
-    const Lanes end_y = hn::GatherIndex(tag, edges.end_y, edge);
-    const Lanes along_x = hn::Sub(end_x, start_x);
-    const Lanes along_y = hn::Sub(end_y, start_y);
-    const Lanes along =
-        hn::Add(hn::Mul(along_x, hn::Sub(x, start_x)), hn::Mul(along_y, hn::Sub(y, start_y)));
-    const Lanes length = hn::Add(hn::Mul(along_x, along_x), hn::Mul(along_y, along_y));
-    const LaneMask at_end = hn::Ge(along, length);
-    const LaneMask after_start =
-        hn::And(hn::Gt(along, hn::Zero(tag)), hn::Gt(length, hn::Zero(tag)));
-    const Lanes parameter = hn::Div(along, length);
-    // Computed from the nearer end, which loses less precision.
-    const LaneMask from_start = hn::Lt(parameter, hn::Set(tag, 0.5));
-    const Lanes back = hn::Sub(one, parameter);
-    Lanes point_x = hn::IfThenElse(from_start, hn::Add(start_x, hn::Mul(parameter, along_x)),
-                                   hn::Sub(end_x, hn::Mul(back, along_x)));
-    Lanes point_y = hn::IfThenElse(from_start, hn::Add(start_y, hn::Mul(parameter, along_y)),
-                                   hn::Sub(end_y, hn::Mul(back, along_y)));
-    // Both ends are kept unchanged, so that a vertex can be distinguished from an edge.
-    point_x = hn::IfThenElse(after_start, hn::IfThenElse(at_end, end_x, point_x), start_x);
-    point_y = hn::IfThenElse(after_start, hn::IfThenElse(at_end, end_y, point_y), start_y);
-    const Lanes off_x = hn::Sub(x, point_x);
-    const Lanes off_y = hn::Sub(y, point_y);
-    hn::StoreU(point_x, tag, nearest.x + i);
-    hn::StoreU(point_y, tag, nearest.y + i);
-    hn::StoreU(hn::Sqrt(hn::Add(hn::Mul(off_x, off_x), hn::Mul(off_y, off_y))), tag,
-               nearest.distance + i);
-    hn::StoreU(hn::IfThenElseZero(after_start, hn::IfThenElse(at_end, one, parameter)), tag,
-               nearest.parameter + i);
+    EdgeLanes ends;
+    ends.start_x = hn::GatherIndex(tag, edges.start_x, edge);
+    ends.start_y = hn::GatherIndex(tag, edges.start_y, edge);
+    ends.end_x = hn::GatherIndex(tag, edges.end_x, edge);
+    ends.end_y = hn::GatherIndex(tag, edges.end_y, edge);
+    const NearestLanes found = nearest_on_edges(ends, x, y);
+    hn::StoreU(found.x, tag, nearest.x + i);
+    hn::StoreU(found.y, tag, nearest.y + i);
+    hn::StoreU(hn::Sqrt(found.squared), tag, nearest.distance + i);
+    hn::StoreU(found.parameter, tag, nearest.parameter + i);
 }
 
 /// Nearest edges of several points at once, one edge after the other.

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <tests/unit/support/shape_samples.hpp>
 
+#include <cmath>
+#include <vector>
+
 namespace nearfield::records {
 namespace {
 
@@ -26,7 +29,10 @@ protected:
     /// What the device found of the point is in `word`.
     ResolvedPoint resolved(std::uint32_t word) {
         resolver_.begin(plan_, planned_, {&word, 1});
-        return resolver_.resolve(0);
+        ResolvedPoint resolved;
+        resolver_.for_each([](std::uint32_t) { return true; },
+                           [&](std::uint32_t, const ResolvedPoint& point) { resolved = point; });
+        return resolved;
     }
 
     static constexpr std::uint32_t found =
@@ -67,6 +73,71 @@ TEST_F(PointResolverTest, AsksTheWholeBoundaryOfTheQueryAboutDoubtfulPoints) {
     EXPECT_EQ(point.edge, 3U);
     EXPECT_DOUBLE_EQ(point.distance, 0.125);
     EXPECT_FALSE(point.inside);
+}
+
+/// Samples of A, more than a block holds, whose nearest edges are on either ring of B.
+TEST_F(PointResolverTest, ResolvesManyPointsAsOneByOne) {
+    const Polygon b = samples::polygon(
+        {samples::rectangle(0.0, 0.0, 4.0, 4.0), samples::rectangle(1.0, 1.0, 2.5, 2.0)});
+    planned_.b = &b;
+    std::vector<std::uint32_t> words;
+    plan_.points.clear();
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        plan_.points.push_back({{i / 100, (i % 100) / 100.0}, plan::PlannedPoint::no_tile});
+        words.push_back(found | (i * 5 % 8));
+    }
+    planned_.points().count = 300;
+    const geometry::TransformedPolygon placed_a(a_, {});
+    const geometry::TransformedPolygon placed_b(b, {});
+    for (const double margin : {0.0, 1.0}) {
+        planned_.points().margin = margin;
+        resolver_.begin(plan_, planned_, words);
+        std::uint32_t next = 0;
+        resolver_.for_each(
+            [](std::uint32_t) { return true; },
+            [&](std::uint32_t i, const ResolvedPoint& point) {
+                ASSERT_EQ(i, next++);
+                std::uint32_t edge = words[i] & plan::point_edge_mask;
+                const geometry::Vector at = plan::position(placed_a, plan_.points[i].point);
+                geometry::NearestOnSegment nearest = nearest_on_edge(placed_b, edge, at);
+                const std::uint32_t found_edge = edge;
+                for (const std::uint32_t other : {b.previous(found_edge), b.next(found_edge)}) {
+                    const auto on_other = nearest_on_edge(placed_b, other, at);
+                    if (margin > 0.0 && on_other.squared_distance < nearest.squared_distance) {
+                        nearest = on_other;
+                        edge = other;
+                    }
+                }
+                EXPECT_EQ(point.edge, edge) << i;
+                EXPECT_EQ(point.nearest, nearest.point) << i;
+                EXPECT_EQ(point.distance, std::sqrt(nearest.squared_distance)) << i;
+                EXPECT_EQ(point.parameter, nearest.parameter) << i;
+                const Feature feature = feature_at(placed_b, edge, nearest.parameter);
+                EXPECT_EQ(point.feature.kind, feature.kind) << i;
+                EXPECT_EQ(point.feature.index, feature.index) << i;
+            });
+        EXPECT_EQ(next, 300U);
+    }
+}
+
+/// Both vertices of A that are inside are equally deep.
+TEST_F(PointResolverTest, ListsPenetrationsAndTheFirstOfTheDeepest) {
+    a_ = samples::polygon({{{3.0, 1.0}, {3.5, 2.0}, {3.0, 3.0}, {5.0, 2.0}}});
+    plan_.points.clear();
+    std::vector<std::uint32_t> words;
+    for (const std::uint32_t vertex : {1U, 0U, 2U, 3U}) {
+        plan_.points.push_back({{vertex, 0.0}, plan::PlannedPoint::no_tile});
+        words.push_back((vertex == 3 ? plan::point_resolved : found) | 1U);
+    }
+    planned_.points().count = 4;
+    resolver_.begin(plan_, planned_, words);
+    std::vector<PenetrationRecord> records(10);
+    EXPECT_EQ(resolver_.list_penetrations(0.01, records), 1U);
+    ASSERT_EQ(records.size(), 3U);
+    EXPECT_DOUBLE_EQ(records[0].depth, 0.5);
+    EXPECT_DOUBLE_EQ(records[1].depth, 1.0);
+    EXPECT_DOUBLE_EQ(records[1].point.y, 1.0);
+    EXPECT_DOUBLE_EQ(records[2].depth, 1.0);
 }
 
 }  // namespace
