@@ -18,13 +18,6 @@ struct Points {
     float radius;
 };
 
-struct Nearest {
-    vec4 squared;  // distances
-    vec4 x;        // from the points to the nearest ones
-    vec4 y;
-    uvec4 slot;
-};
-
 float least(vec4 v) {
     return min(min(v.x, v.y), min(v.z, v.w));
 }
@@ -34,32 +27,12 @@ float largest(vec4 v) {
 }
 
 #include "left_out.glsl"
+#include "nearest_edges.glsl"
 
 Points points_at(vec4 x, vec4 y) {
     vec2 low = vec2(least(x), least(y));
     vec2 high = vec2(largest(x), largest(y));
     return Points(x, y, 0.5 * (low + high), 0.5 * distance(low, high));
-}
-
-float squared_distance_to_box(vec2 p, vec4 box) {
-    vec2 apart = max(max(box.xy - p, p - box.zw), vec2(0.0));
-    return dot(apart, apart);
-}
-
-// The squared lengths of edges that are points as far as single precision can tell.
-const float shortest_squared = 1e-24;
-
-// From four points to the nearest ones on an edge.
-void find_on_edge(Points p, vec4 edge, out vec4 x, out vec4 y, out vec4 squared) {
-    vec2 d = edge.zw - edge.xy;
-    float length_squared = dot(d, d);
-    vec2 scaled = length_squared > shortest_squared ? d / length_squared : vec2(0.0);
-    x = edge.x - p.x;
-    y = edge.y - p.y;
-    vec4 along = clamp(-(x * scaled.x + y * scaled.y), 0.0, 1.0);
-    x += along * d.x;
-    y += along * d.y;
-    squared = x * x + y * y;
 }
 
 bvec4 cross_edge(Points p, vec4 edge) {
@@ -115,139 +88,6 @@ bvec4 find_inside(Points p, bvec4 asked, Shape b, inout bool too_long) {
     return bvec4(false);
 }
 
-void consider_chunk(Points p, Shape b, uint chunk, inout Nearest nearest) {
-    uint end = edges_end(b, chunk);
-    uint slot = chunk_size * chunk;
-    vec4 next = floats_at(b.edges + slot);
-    for (; slot < end; ++slot) {
-        vec4 ends = next;
-        next = floats_at(b.edges + slot + 1u);
-        vec4 x, y, squared;
-        find_on_edge(p, ends, x, y, squared);
-        bvec4 nearer = lessThan(squared, nearest.squared);
-        nearest.squared = min(squared, nearest.squared);
-        nearest.x = mix(nearest.x, x, nearer);
-        nearest.y = mix(nearest.y, y, nearer);
-        nearest.slot = mix(nearest.slot, uvec4(slot), nearer);
-    }
-}
-
-// Follows the nearest box from level to level: a first bound for the search. Returns the chunk.
-uint descend_to_nearest(Points p, Shape b, inout Nearest nearest) {
-    uint box = 0u;
-    for (uint level = b.levels; level > 0u; --level) {
-        Group group = group_of(b, level - 1u, box);
-        uint best = 0u;
-        float least_squared = infinity;
-        for (uint i = 0u; i < group.count; ++i) {
-            float d = squared_distance_to_box(p.centre, floats_at(group.first + i));
-            best = d < least_squared ? i : best;
-            least_squared = min(d, least_squared);
-        }
-        box = chunk_size * box + best;
-    }
-    consider_chunk(p, b, box, nearest);
-    return box;
-}
-
-// The boxes of a walk's group that may hold an edge within `reach` of one of the points.
-void enter(inout Walk walk, Points p, Shape b, float reach) {
-    Group group = group_of(b, walk.level, walk.group);
-    float limit = (p.radius + reach) * (p.radius + reach);
-    uint boxes = 0u;
-    vec4 next = floats_at(group.first);
-    for (uint i = 0u; i < group.count; ++i) {
-        vec4 box = next;
-        next = floats_at(group.first + i + 1u);
-        boxes |= squared_distance_to_box(p.centre, box) <= limit ? 1u << i : 0u;
-    }
-    add_boxes(walk, boxes);
-}
-
-// Returns the nearest edges that are nearer than `limit`; slot is no_parts if there is none.
-Nearest find_nearest(Points p, Shape b, vec4 limit, inout bool too_long) {
-    Nearest nearest = Nearest(limit * limit, vec4(0.0), vec4(0.0), uvec4(no_parts));
-    uint considered = descend_to_nearest(p, b, nearest);
-    Walk walk = start_walk(b);
-    for (uint steps = 0u; steps < max_steps && !too_long; ++steps) {
-        enter(walk, p, b, sqrt(largest(nearest.squared)));
-        uint chunks = take_chunks(walk);
-        chunks &= walk.group == considered / chunk_size ? ~(1u << considered % chunk_size) : ~0u;
-        steps += bitCount(chunks);
-        while (chunks != 0u) {
-            consider_chunk(p, b, chunk_size * walk.group + take_bit(chunks), nearest);
-        }
-        uint box;
-        if (!next_box(walk, box)) {
-            return nearest;
-        }
-        descend(walk, box);
-    }
-    too_long = true;
-    return nearest;
-}
-
-struct Rivals {
-    bvec4 exist;
-    bvec4 doubtful;
-};
-
-// A second boundary point that is as near as the nearest one, up to the margin, is a rival if it is
-// more than twice as far from it as one straight edge explains. A second edge that is as near, up to
-// rounding, leaves both in doubt, except for a neighbour with the same nearest point.
-void compare_chunk(Points p, Shape b, uint chunk, Nearest nearest, vec4 near, uvec4 edge,
-                   SearchDirectionData direction, inout Rivals rivals) {
-    vec4 limit = near + direction.rival;
-    vec4 along_wall = direction.rival * (limit + near);  // limit^2 - distance^2
-    vec4 in_doubt = near + direction.doubt;
-    float same = 16.0 * direction.margin * direction.margin;
-    uint first = word_at(b.infos + chunk) >> 4;
-    uint end = edges_end(b, chunk);
-    uint slot = chunk_size * chunk;
-    vec4 next = floats_at(b.edges + slot);
-    for (; slot < end; ++slot) {
-        vec4 ends = next;
-        next = floats_at(b.edges + slot + 1u);
-        vec4 x, y, squared;
-        find_on_edge(p, ends, x, y, squared);
-        vec4 distances = sqrt(squared);
-        vec4 apart = (x - nearest.x) * (x - nearest.x) + (y - nearest.y) * (y - nearest.y);
-        uvec4 number = uvec4(first + slot % chunk_size);
-        uvec4 exist = uvec4(lessThanEqual(distances, limit)) &
-                      uvec4(greaterThan(apart, 4.0 * along_wall));
-        uvec4 elsewhere = uvec4(lessThan(number + 1u, edge)) |
-                          uvec4(greaterThan(number, edge + 1u)) |
-                          uvec4(greaterThan(apart, vec4(same)));
-        rivals.exist = bvec4(uvec4(rivals.exist) | exist);
-        rivals.doubtful = bvec4(uvec4(rivals.doubtful) |
-                                uvec4(lessThanEqual(distances, in_doubt)) & elsewhere);
-    }
-}
-
-Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, SearchDirectionData direction,
-                   inout bool too_long) {
-    Rivals rivals = Rivals(bvec4(false), bvec4(false));
-    vec4 near = sqrt(nearest.squared);
-    float reach = largest(near) + max(direction.rival, direction.doubt);
-    Walk walk = start_walk(b);
-    for (uint steps = 0u; steps < max_steps && !too_long; ++steps) {
-        enter(walk, p, b, reach);
-        uint chunks = take_chunks(walk);
-        steps += bitCount(chunks);
-        while (chunks != 0u) {
-            uint chunk = chunk_size * walk.group + take_bit(chunks);
-            compare_chunk(p, b, chunk, nearest, near, edge, direction, rivals);
-        }
-        uint box;
-        if (!next_box(walk, box)) {
-            return rivals;
-        }
-        descend(walk, box);
-    }
-    too_long = true;
-    return rivals;
-}
-
 // Returns the words of four points; 0 for those that are not asked for. `depth`: the distance from
 // the boundary; 0 outside, unless points there are asked for; negative where a walk takes too long.
 uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction, out vec4 depth) {
@@ -257,7 +97,8 @@ uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction, out vec4 dep
     float near_boundary = near_boundary_of(direction.margin);
     vec4 limit = direction.outside != 0.0 ? vec4(direction.reach + near_boundary)
                                    : mix(vec4(near_boundary), vec4(infinity), inside);
-    Nearest nearest = find_nearest(p, b, limit, too_long);
+    float more = max(direction.rival, direction.doubt);
+    Nearest nearest = find_nearest(p, b, limit, more, too_long);
     uvec4 found = uvec4(notEqual(nearest.slot, uvec4(no_parts)));
     uvec4 edge;
     for (int i = 0; i < 4; ++i) {
@@ -265,7 +106,7 @@ uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction, out vec4 dep
     }
     Rivals rivals = Rivals(bvec4(false), bvec4(false));
     if (found != uvec4(0u)) {
-        rivals = find_rivals(p, b, nearest, edge, direction, too_long);
+        rivals = find_rivals(p, b, nearest, edge, direction, more, too_long);
     }
     bvec4 has_depth = bvec4(uvec4(inside) | uvec4(direction.outside != 0.0));
     depth = too_long ? vec4(-1.0) : mix(vec4(0.0), sqrt(nearest.squared), has_depth);
