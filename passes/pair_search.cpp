@@ -35,23 +35,23 @@ PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders,
 }
 
 void PairSearch::declare_boxes() {
-    auto& [graph, input, instances, scratch] = boxes_;
-    input = graph.import_buffer({"pair shapes", true, false});
-    instances = graph.import_buffer({"pair instances", true, false});
-    scratch = graph.import_buffer({"pair scratch"}, after_writes);
+    auto& graph = boxes_.graph;
+    boxes_.input = graph.import_buffer({"pair shapes", true, false});
+    boxes_.instances = graph.import_buffer({"pair instances", true, false});
+    boxes_.scratch = graph.import_buffer({"pair scratch"}, after_writes);
     graph.add_pass(
         "pair boxes", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(instances, Access::storage_read_in_compute);
-            pass.read(input, Access::storage_read_in_compute);
-            scratch = pass.write(scratch, Access::storage_write_in_compute);
+        [this](graph::PassBuilder& pass) {
+            pass.read(boxes_.instances, Access::storage_read_in_compute);
+            pass.read(boxes_.input, Access::storage_read_in_compute);
+            boxes_.scratch = pass.write(boxes_.scratch, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
             shaders_->instances.boxes.bind(commands, item.sets[of_instances]);
             dispatch(commands, item, shaders_->instances.boxes, no_stage, no_stage);
         });
-    scratch = graph.add_compute_pass(
-        "pair levels", {}, scratch, [this](VkCommandBuffer commands, const Item& item) {
+    boxes_.scratch = graph.add_compute_pass(
+        "pair levels", {}, boxes_.scratch, [this](VkCommandBuffer commands, const Item& item) {
             shaders_->instances.levels.bind(commands, item.sets[of_instances]);
             push(commands, item, shaders_->instances.levels, 0, no_stage);
             shaders_->instances.levels.dispatch(commands, 1);
