@@ -144,22 +144,20 @@ ClosestOfSegments closest_of_segments(const Vector& a, const Vector& b, const Ve
     end_of_second(c, 0.0);
     end_of_second(d, 1.0);
     if (closest.squared_distance > 0.0 && segments_intersect(a, b, c, d)) {
-        // The sides of c and d locate the crossing on cd, those of a and b locate it on ab.
-        const double c_side = std::abs(cross(b - a, c - a));
-        const double d_side = std::abs(cross(b - a, d - a));
+        // The sides of a and b locate the crossing on ab.
         const double a_side = std::abs(cross(d - c, a - c));
         const double b_side = std::abs(cross(d - c, b - c));
-        if (a_side + b_side > 0.0 && c_side + d_side > 0.0) {
-            const double on_first = a_side / (a_side + b_side);
-            const double on_second = c_side / (c_side + d_side);
-            const Vector crossing = a + on_first * (b - a);
-            const double apart = (c + on_second * (d - c) - crossing).squaredNorm();
+        if (a_side + b_side > 0.0) {
+            const double parameter = a_side / (a_side + b_side);
+            const Vector crossing = a + parameter * (b - a);
+            const NearestOnSegment on_second = nearest_on_segment(crossing, c, d);
             // Of segments along one line the sides are rounding alone, and locate nothing; then an
-            // end is on the other segment.
-            if (apart < closest.squared_distance) {
+            // end is on the other segment. Of segments that are almost parallel they say little
+            // about where along them the crossing is, and yet it is on both.
+            if (on_second.squared_distance < closest.squared_distance) {
                 closest.first = crossing;
-                closest.first_parameter = on_first;
-                closest.second_parameter = on_second;
+                closest.first_parameter = parameter;
+                closest.second_parameter = on_second.parameter;
             }
             closest.second = closest.first;
             closest.squared_distance = 0.0;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 namespace nearfield::geometry {
@@ -148,6 +149,33 @@ TEST(SegmentsMeet, WhereTheirDistanceIsWithinTheMargin) {
     }
     EXPECT_GT(within, 2000);
     EXPECT_GT(without, 2000);
+}
+
+/// Where along them almost parallel segments cross is uncertain; that the point is on both is not.
+TEST(ClosestOfSegments, CrossInAPointOfBothIfAlmostParallel) {
+    std::mt19937 random(28);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const auto any = [&](double most) {
+        return Vector(most * uniform(random), most * uniform(random));
+    };
+    int crossings = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const double off = std::pow(10.0, -10.0 + 4.0 * uniform(random));
+        const Vector a = any(1.0);
+        const Vector b = any(1.0);
+        const Vector c = a + any(off);
+        const Vector d = b + any(off);
+        if (segments_intersect(a, b, c, d)) {
+            const ClosestOfSegments closest = closest_of_segments(a, b, c, d);
+            EXPECT_EQ(closest.squared_distance, 0.0);
+            for (const Vector& point : {closest.first, closest.second}) {
+                EXPECT_LT(nearest_on_segment(point, a, b).squared_distance, 1e-30);
+                EXPECT_LT(nearest_on_segment(point, c, d).squared_distance, 1e-30);
+            }
+            ++crossings;
+        }
+    }
+    EXPECT_GT(crossings, 4000);
 }
 
 TEST(ClosestOfSegments, AlongOneLineHaveACommonPoint) {
