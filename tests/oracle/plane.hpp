@@ -25,12 +25,13 @@ inline double dot(const Vector2& a, const Vector2& b) {
     return a.x * b.x + a.y * b.y;
 }
 
+/// To a rounding or two, of lengths from 1e-150 to 1e150.
 inline double length(const Vector2& a) {
-    return std::hypot(a.x, a.y);
+    return std::sqrt(dot(a, a));
 }
 
 inline double distance(const Vector2& a, const Vector2& b) {
-    return std::hypot(a.x - b.x, a.y - b.y);
+    return length(minus(a, b));
 }
 
 /// Twice the signed area of triangle abc, in extended precision.

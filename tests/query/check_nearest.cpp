@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace nearfield::test {
 namespace {
@@ -25,15 +24,6 @@ double distance_to_feature(const ShapeOracle& shape, const Feature& feature, con
                : shape.nearest_on_edge(feature.index, point).distance;
 }
 
-std::string text_of(const NearestClaim& claim) {
-    std::ostringstream text;
-    text.precision(17);
-    text << "record at " << claim.point.x << ", " << claim.point.y << ", distance "
-         << claim.distance << " to " << claim.nearest.x << ", " << claim.nearest.y
-         << (claim.unique ? "" : " (not unique)") << ": ";
-    return text.str();
-}
-
 /// The flag must be cleared if another local minimum of the distance is clearly within d/1000 and
 /// farther from `nearest` than twice the extent of one straight wall's points within d/1000; it
 /// must be set if no edge has a point within d/1000 in any other direction.
@@ -45,8 +35,8 @@ void check_unique(Report& report, const NearestTruth& truth, const NearestClaim&
         for (const Nearest& rival : truth.other.local_minima_within(claim.point, clearly_near)) {
             report.require(
                 oracle::distance(rival.point, claim.nearest) <= 2.05 * along_wall + truth.allowed,
-                text_of(claim), "called unique; a rival is ", rival.distance, " away at ",
-                rival.point.x, ", ", rival.point.y);
+                claim, "called unique; a rival is ", rival.distance, " away at ", rival.point.x,
+                ", ", rival.point.y);
         }
     } else if (claim.distance > slack) {
         const auto others =
@@ -55,11 +45,17 @@ void check_unique(Report& report, const NearestTruth& truth, const NearestClaim&
         const bool rivalled = std::any_of(others.begin(), others.end(), [&](const Nearest& other) {
             return angle_between(oracle::minus(other.point, claim.point), direction) > 1e-6;
         });
-        report.require(rivalled, text_of(claim), "called not unique and has no rival");
+        report.require(rivalled, claim, "called not unique and has no rival");
     }
 }
 
 }  // namespace
+
+std::ostream& operator<<(std::ostream& text, const NearestClaim& claim) {
+    return text << "record at " << claim.point.x << ", " << claim.point.y << ", distance "
+                << claim.distance << " to " << claim.nearest.x << ", " << claim.nearest.y
+                << (claim.unique ? "" : " (not unique)") << ": ";
+}
 
 double allowed_rounding(const PlacedPair& pair) {
     return pair.rounding() + 1e-6 * pair.tolerance();
@@ -67,7 +63,7 @@ double allowed_rounding(const PlacedPair& pair) {
 
 void check_nearest(Report& report, const NearestTruth& truth, const NearestClaim& claim) {
     const auto require_at_most = [&](double value, double most, const char* what) {
-        report.require(value <= most, text_of(claim), what, ' ', value);
+        report.require(value <= most, claim, what, ' ', value);
     };
     require_at_most(truth.own.nearest(claim.point).distance, truth.allowed,
                     "the point is off its boundary by");

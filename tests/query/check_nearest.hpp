@@ -3,6 +3,8 @@
 #include <tests/query/pair.hpp>
 #include <tests/query/report.hpp>
 
+#include <ostream>
+
 namespace nearfield::test {
 
 /// The part of a record that relates a point of one boundary to the nearest point of the other.
@@ -13,6 +15,8 @@ struct NearestClaim {
     Feature feature;
     bool unique = true;
 };
+
+std::ostream& operator<<(std::ostream& text, const NearestClaim& claim);
 
 /// The two boundaries and the allowed error of claims about them.
 struct NearestTruth {

@@ -30,13 +30,10 @@ struct Found {
     bool unique = false;
 };
 
-std::string text_of(const Found& found) {
-    std::ostringstream text;
-    text.precision(17);
-    text << "(" << found.point.x << ", " << found.point.y << ") "
-         << (found.feature.kind == Feature::Kind::edge ? "edge " : "vertex ") << found.feature.index
-         << (found.unique ? "" : " not unique") << ": ";
-    return text.str();
+std::ostream& operator<<(std::ostream& text, const Found& found) {
+    return text << "(" << found.point.x << ", " << found.point.y << ") "
+                << (found.feature.kind == Feature::Kind::edge ? "edge " : "vertex ")
+                << found.feature.index << (found.unique ? "" : " not unique") << ": ";
 }
 
 /// Checks a nearest feature and the gradient from it.
@@ -45,15 +42,15 @@ void check_feature(Report& report, const ShapeOracle& b, double tolerance, const
     const double named = distance_to_feature(b, found.feature, found.point);
     const double margin = margin_of(tolerance, truth);
     const double allowed = 4 * b.rounding() + 1e-12 * truth;
-    report.require(named <= truth + margin + allowed, text_of(found), "is ", named,
-                   " away, the nearest ", truth);
+    report.require(named <= truth + margin + allowed, found, "is ", named, " away, the nearest ",
+                   truth);
     const Vector2 place = place_on(b, found.feature, found.point);
     if (found.unique) {
         const double along_wall = std::sqrt(margin * (2 * named + margin));
         const double clearly_near = named + 0.9 * margin - 2 * allowed;
         for (const Nearest& rival : b.local_minima_within(found.point, clearly_near)) {
             report.require(oracle::distance(rival.point, place) <= 2.05 * along_wall + allowed,
-                           text_of(found), "has a rival ", rival.distance, " away, it is ", named);
+                           found, "has a rival ", rival.distance, " away, it is ", named);
         }
     } else if (named > margin) {
         const auto others = b.edges_within(found.point, named + 1.1 * margin + 2 * allowed);
@@ -61,16 +58,16 @@ void check_feature(Report& report, const ShapeOracle& b, double tolerance, const
                                    [&](const Nearest& other) {
                                        return oracle::distance(other.point, place) > 1e-9 * named;
                                    }),
-                       text_of(found), "has no rival");
+                       found, "has no rival");
     }
     // Closer than a thousandth of d, either side may be reported.
     if (found.has_gradient && named > tolerance / 1000 + allowed) {
         const double side = b.signed_distance(found.point) < 0.0 ? -1.0 : 1.0;
         const Vector2 expected = oracle::times(oracle::minus(found.point, place), side / named);
         const double most = 1e-6 + 2 * allowed / named;
-        report.require(oracle::distance(found.gradient, expected) <= most, text_of(found),
-                       "gradient (", found.gradient.x, ", ", found.gradient.y, ") instead of (",
-                       expected.x, ", ", expected.y, ")");
+        report.require(oracle::distance(found.gradient, expected) <= most, found, "gradient (",
+                       found.gradient.x, ", ", found.gradient.y, ") instead of (", expected.x, ", ",
+                       expected.y, ")");
     }
 }
 

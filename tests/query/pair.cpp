@@ -42,6 +42,13 @@ PlacedPair::~PlacedPair() {
 }
 
 Truth PlacedPair::intersects() const {
+    if (!intersects_) {
+        intersects_ = find_whether_they_intersect();
+    }
+    return *intersects_;
+}
+
+Truth PlacedPair::find_whether_they_intersect() const {
     const bool apart = oracle::boundary_distance(oracle_a_, oracle_b_) > rounding();
     const bool intersect = oracle::intersects(oracle_a_, oracle_b_);
     if (apart) {

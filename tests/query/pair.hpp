@@ -5,6 +5,7 @@
 #include <tests/oracle/shape_oracle.hpp>
 #include <tests/support/polygons.hpp>
 
+#include <optional>
 #include <string>
 
 namespace nearfield::test {
@@ -38,7 +39,7 @@ public:
     [[nodiscard]] const Pair& pair() const { return pair_; }
     /// The maximum displacement of a point of either shape by rounding in double precision.
     [[nodiscard]] double rounding() const { return oracle_a_.rounding() + oracle_b_.rounding(); }
-    /// Whether the shapes intersect, if rounding cannot affect it.
+    /// Whether the shapes intersect, if rounding cannot affect it; found out once.
     [[nodiscard]] Truth intersects() const;
 
     [[nodiscard]] PenetrationQuery penetration(
@@ -49,6 +50,8 @@ public:
     [[nodiscard]] ClosestPointQuery closest_point() const;
 
 private:
+    [[nodiscard]] Truth find_whether_they_intersect() const;
+
     Context* context_;
     Technique technique_;
     Pair pair_;
@@ -56,6 +59,7 @@ private:
     oracle::ShapeOracle oracle_b_;
     ShapeHandle handle_a_;
     ShapeHandle handle_b_;
+    mutable std::optional<Truth> intersects_;
 };
 
 /// Shapes of random families and sizes that usually overlap; some far from the origin of the world,
