@@ -187,6 +187,20 @@ bool Naming::allows(const Vector2& point, const NamedFeature& one,
     return (!one.unique && !other.unique) || oracle::distance(one.nearest, other.nearest) <= most;
 }
 
+AnyResult by_technique_of(const AnyResult& found, AnyResult other) {
+    std::visit(
+        [&other](const auto& searched) {
+            std::visit(
+                [&searched](auto& one) {
+                    one.technique = searched.technique;
+                    one.regions = searched.regions;
+                },
+                other);
+        },
+        found);
+    return other;
+}
+
 void check_agreement(const Asked& asked, const AnyResult& one, const AnyResult& other) {
     std::visit(
         [&](const auto& first) {

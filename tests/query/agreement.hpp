@@ -6,8 +6,8 @@
 #include <tests/query/pair.hpp>
 #include <tests/query/report.hpp>
 
-/// \file The maximum difference between the answers of two drivers to one query, from the
-/// guarantees in the public headers.
+/// \file The maximum difference between the answers of two drivers, or two techniques, to one
+/// query, from the guarantees in the public headers.
 
 namespace nearfield::test {
 
@@ -52,11 +52,18 @@ struct Asked {
     const PlacedPair& pair;  ///< the pair of shapes in the query
     const AnyQuery& query;
     SubPixelGrids grids = SubPixelGrids::same;
+    /// Most records must be equal, up to rounding. False for shapes with many features that are
+    /// almost equally near.
+    bool mostly_equal = true;
 };
 
 /// Compares results of the query, which must be answered. Each difference beyond the guarantees is
 /// a test failure.
 void check_agreement(const Asked& asked, const AnyResult& one, const AnyResult& other);
+
+/// Another answer with the technique and the regions of the one that was found, for a comparison of
+/// two techniques.
+[[nodiscard]] AnyResult by_technique_of(const AnyResult& found, AnyResult other);
 
 // One function per kind of result.
 

@@ -18,7 +18,7 @@ NamedFeature named(const ContactRecord& record) {
     return {record.feature, record.nearest, record.distance, record.unique};
 }
 
-/// Checks the features of both results against those allowed. Most must be equal.
+/// Checks the features of both results against those allowed.
 class NamedPairs {
 public:
     NamedPairs(Report& report, const Naming& naming) : report_(&report), naming_(naming) {}
@@ -34,7 +34,7 @@ public:
                          one.unique ? "" : " (not unique)", " away and ", other.feature.index, " ",
                          other.distance, other.unique ? "" : " (not unique)");
     }
-    void finish() const {
+    void require_most_equal() const {
         report_->require(otherwise_ <= 1 + count_ / 20, otherwise_, " of ", count_,
                          " records do not say the same");
     }
@@ -85,7 +85,9 @@ void check_agreement(Report& report, const Asked& asked, const PenetrationResult
             report.require(alone.depth <= touching, "only one has a record at ", alone.point.x,
                            ", ", alone.point.y, ", depth ", alone.depth);
         });
-    pairs.finish();
+    if (asked.mostly_equal) {
+        pairs.require_most_equal();
+    }
     const auto deepest = [](const PenetrationResult& result) {
         return result.count > 0 ? result.deepest.depth : 0.0;
     };
@@ -121,7 +123,9 @@ void check_agreement(Report& report, const Asked& asked, const ContactResult& on
                                "only one has a contact at ", alone.point.x, ", ", alone.point.y,
                                ", distance ", alone.distance);
             });
-        pairs.finish();
+        if (asked.mostly_equal) {
+            pairs.require_most_equal();
+        }
     }
     check_manifolds(report, one, other);
 }

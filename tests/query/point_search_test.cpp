@@ -49,21 +49,6 @@ protected:
         return all_numbers(results);
     }
 
-    /// Another answer with the technique and the regions of the one that was found.
-    static AnyResult by_technique_of(const AnyResult& found, AnyResult other) {
-        std::visit(
-            [&other](const auto& searched) {
-                std::visit(
-                    [&searched](auto& one) {
-                        one.technique = searched.technique;
-                        one.regions = searched.regions;
-                    },
-                    other);
-            },
-            found);
-        return other;
-    }
-
     /// Depths in B of the first vertices of A, whose own frame is turned by `angle`, so that the
     /// device rounds where they are. The tolerance is far below single precision.
     void check_row(const Rings& b, const std::vector<Vector2>& row,
