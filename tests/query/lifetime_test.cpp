@@ -162,7 +162,7 @@ TEST_F(Lifetime, TheGraphDescribesItself) {
     }
     DevicePairTable<PenetrationQuery> table({.tolerance = pair.penetration().tolerance});
     ASSERT_TRUE(world->update(table).ok());
-    begins("pairs: passes\n", GraphFormat::text);
+    begins("boxes of pairs: passes\n", GraphFormat::text);
 }
 
 }  // namespace
