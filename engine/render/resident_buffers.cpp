@@ -1,4 +1,5 @@
 #include <engine/base/unique_numbers.hpp>
+#include <engine/gpu/buffer_parts.hpp>
 #include <engine/render/resident_buffers.hpp>
 
 #include <algorithm>

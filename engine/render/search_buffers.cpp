@@ -1,4 +1,5 @@
 #include <engine/base/status_exception.hpp>
+#include <engine/gpu/buffer_parts.hpp>
 #include <engine/render/search_buffers.hpp>
 #include <engine/render/search_memory.hpp>
 
