@@ -116,7 +116,9 @@ void check_agreement(Report& report, const Asked& asked, const ContactResult& on
                                i.point.x, ", ", i.point.y, " is inside; it is ", i.distance);
                 report.require(!analytic || !same_feature(i.feature, j.feature) ||
                                    i.inside != j.inside || i.normal == j.normal,
-                               "normals differ at ", i.point.x, ", ", i.point.y);
+                               "normals differ at ", i.point.x, ", ", i.point.y, ", ", i.distance,
+                               " away: ", i.normal.x, ", ", i.normal.y, " and ", j.normal.x, ", ",
+                               j.normal.y);
             },
             [&](const ContactRecord& alone) {
                 report.require(alone.distance >= query.contact_distance - margin,

@@ -10,7 +10,7 @@ namespace nearfield::test {
 
 template <class Record>
 void sort_by_point(std::vector<Record>& records) {
-    std::sort(records.begin(), records.end(), [](const Record& i, const Record& j) {
+    std::stable_sort(records.begin(), records.end(), [](const Record& i, const Record& j) {
         return std::tie(i.point.x, i.point.y) < std::tie(j.point.x, j.point.y);
     });
 }
