@@ -214,9 +214,9 @@ TEST_F(Bench, SaysWhichRowsOfAGpuAreTooLarge) {
                                          "--memory-limit", "1", "--json", file});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const Json times = Json::parse(folder_.read("gpu.json")).at("rows").at(0).at("times");
-    const std::string reason = times.at("device pairs").at("refused");
+    const std::string reason = times.at("device pairs, resident").at("refused");
     EXPECT_NE(reason.find("memory_limit"), std::string::npos) << reason;
-    EXPECT_NE(outcome.out.find("* crowd of 420 objects by device pairs: " + reason),
+    EXPECT_NE(outcome.out.find("* crowd of 420 objects by device pairs, resident: " + reason),
               std::string::npos)
         << outcome.out;
 }
