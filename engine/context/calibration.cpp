@@ -2,12 +2,14 @@
 #include <engine/base/stopwatch.hpp>
 #include <engine/context/calibration.hpp>
 #include <engine/context/calibration_workloads.hpp>
+#include <engine/plan/technique.hpp>
 #include <engine/select/fit_cost.hpp>
 #include <engine/select/work.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -134,13 +136,16 @@ struct KindTimes {
     }
 };
 
-using AllTimes = std::array<KindTimes, kinds.size()>;
+/// Nothing of a kind that the technique leaves to the CPU.
+using AllTimes = std::array<std::optional<KindTimes>, kinds.size()>;
 
 /// What a batch takes once: kinds differ in their passes, so it is the median of all kinds.
 double once(const AllTimes& times, double BatchTimes::*part) {
     std::vector<double> all;
-    for (const KindTimes& kind : times) {
-        all.push_back(kind.once(part));
+    for (const std::optional<KindTimes>& kind : times) {
+        if (kind) {
+            all.push_back(kind->once(part));
+        }
     }
     return median_of(std::move(all));
 }
@@ -289,11 +294,15 @@ AllTimes Calibration::measure(Technique technique) {
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const calibration::Kind& kind = kinds[i];
         const AnyQuery least = kind.query(few_.handle, kind.coarse);
+        if (!plan::is_candidate(technique, least)) {
+            make_progress();
+            continue;
+        }
         const AnyQuery some = kind.query(stars_[many_queries].handle, kind.middle);
         const auto [shapes, shape] =
             median_times<2>({all_of(many_queries, technique, kind, kind.middle),
                              batch_of(technique, some, many_queries)});
-        times[i] = {
+        times[i] = KindTimes{
             .one = median_times(batch_of(technique, least)),
             .many = median_times(all_of(0, technique, kind, kind.coarse)),
             .shapes = shapes,
@@ -302,7 +311,7 @@ AllTimes Calibration::measure(Technique technique) {
             .samples = query_times(technique, kind.query(few_.handle, kind.fine)),
         };
         if (kind.searches) {
-            times[i].searches = query_times(technique, kind.query(many_.handle, kind.fine));
+            times[i]->searches = query_times(technique, kind.query(many_.handle, kind.fine));
         }
         make_progress();
     }
@@ -313,7 +322,11 @@ AllTimes Calibration::measure(Technique technique) {
 QueryCosts Calibration::fit(const AllTimes& times, double BatchTimes::*part) const {
     QueryCosts costs;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
+        if (!times[i]) {
+            continue;
+        }
         const calibration::Kind& kind = kinds[i];
+        const KindTimes& own = *times[i];
         // Both shapes of a query are one. Several queries of it tell what each of them takes of
         // the device, without the shape.
         const double shapes = part == &BatchTimes::device ? 0.0 : 1.0;
@@ -325,12 +338,12 @@ QueryCosts Calibration::fit(const AllTimes& times, double BatchTimes::*part) con
         };
         costs.*kind.cost = select::fit_cost(
             {
-                .least = work(few_, kind.coarse, times[i].query(part), 1.0),
-                .edges = work(many_, kind.middle, times[i].alone(times[i].edges, part), shapes),
-                .samples = work(few_, kind.fine, times[i].alone(times[i].samples, part), shapes),
-                .searches = work(many_, kind.fine, times[i].alone(times[i].searches, part), shapes),
+                .least = work(few_, kind.coarse, own.query(part), 1.0),
+                .edges = work(many_, kind.middle, own.alone(own.edges, part), shapes),
+                .samples = work(few_, kind.fine, own.alone(own.samples, part), shapes),
+                .searches = work(many_, kind.fine, own.alone(own.searches, part), shapes),
             },
-            times[i].shape_edge(part));
+            own.shape_edge(part));
     }
     return costs;
 }

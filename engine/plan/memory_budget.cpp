@@ -85,20 +85,20 @@ bool QueryMemory::can_keep(double samples) {
     return true;
 }
 
-bool QueryMemory::fits_roughly(double samples, double bytes_of_record) {
-    const bool is_to_be_close = batch_.counts_closely_ && bytes_of_record > 0.0;
-    if (is_to_be_close || !can_keep(samples)) {
+bool QueryMemory::fits_roughly(double samples_at_once, double bytes) {
+    const bool is_to_be_close = batch_.counts_closely_ && bytes > 0.0;
+    if (is_to_be_close || !can_keep(samples_at_once)) {
         return false;
     }
-    batch_.rough_ += bytes_of_record * samples;
+    batch_.rough_ += bytes;
     return true;
 }
 
-bool QueryMemory::fits(double samples, double bytes_of_record) {
-    if (!can_keep(samples)) {
+bool QueryMemory::fits(double samples_at_once, double bytes) {
+    if (!can_keep(samples_at_once)) {
         return false;
     }
-    require(bytes_of_record * samples, 1.0);
+    require(bytes, 1.0);
     return true;
 }
 

@@ -46,12 +46,12 @@ public:
     /// Adds bytes. Throws StatusException (too_large), with a tolerance that fits, if the batch has
     /// no room for them. `growth`: memory grows with (1/d)^growth.
     void require(double bytes, double growth);
-    /// Returns whether the query may be answered by brute force over all its samples, whose records
-    /// are then estimated roughly.
-    [[nodiscard]] bool fits_roughly(double samples, double bytes_of_record);
-    /// The same for the samples that localisation leaves. Throws StatusException (too_large) if
-    /// their records do not fit.
-    [[nodiscard]] bool fits(double samples, double bytes_of_record);
+    /// Returns whether the query may be answered from whole boundaries, with so many samples kept
+    /// at once and results of at most so many bytes, which are a rough estimate.
+    [[nodiscard]] bool fits_roughly(double samples_at_once, double bytes);
+    /// The same for what localisation leaves. Throws StatusException (too_large) if the results do
+    /// not fit.
+    [[nodiscard]] bool fits(double samples_at_once, double bytes);
 
 private:
     /// Returns whether this many boundary samples, and what is derived from them, may be kept at

@@ -22,9 +22,10 @@ using localize::Chain;
 // Host memory per point: planned and resolved, in the result and in the buffers on the way there.
 constexpr double bytes_per_point =
     sizeof(PlannedPoint) + std::max(sizeof(PenetrationRecord), sizeof(ContactRecord)) + 64.0;
-
 // The same for a resident point: its details, its table entry, its record.
 constexpr double bytes_per_resident_point = 16.0 + 16.0 + 40.0;
+// What is kept of a point that the device finds, beside its record.
+constexpr double bytes_of_found = sizeof(PlannedPoint) + sizeof(std::uint32_t);
 
 double bytes_of_point(const PlannedQuery& query) {
     return bytes_per_point + (query.resident ? bytes_per_resident_point : 0.0);
@@ -32,9 +33,7 @@ double bytes_of_point(const PlannedQuery& query) {
 
 // For either boundary, in a search that is finished exactly.
 constexpr double max_search_samples = 4096.0;
-
-// For a whole boundary: keeps the numbers of samples, and of the parts of an edge, well within 32
-// bits.
+// For a whole boundary: keeps numbers of samples, and of the parts of an edge, within 32 bits.
 constexpr double max_numbered_samples = 1U << 30U;
 
 /// Checks that deviations and coordinates are compatible with the tolerance; the result states the
@@ -68,15 +67,32 @@ std::uint32_t add_reverse(CurrentQuery& current) {
     return index;
 }
 
-/// Returns whether the device may search for the points of the query. Resident outputs still need
-/// planned points.
-bool can_be_searched(CurrentQuery& current, double samples, double bytes_of_record) {
-    const PlannedQuery& planned = current.planned();
-    constexpr double bytes_of_found = sizeof(PlannedPoint) + sizeof(std::uint32_t);
-    return planned.technique == Technique::compute && !planned.resident &&
-           samples <= max_searched_points &&
-           max_shape_bytes(*planned.a, *planned.b) <= current.limits.largest_range &&
-           current.memory.fits_roughly(samples, bytes_of_found + bytes_of_record);
+/// Who finds the points of a query if the memory suffices, of which there are `samples` on the
+/// boundaries that it looks at. What the device cannot search is left to the CPU.
+PointSource source_for(double samples, CurrentQuery& current) {
+    PlannedQuery& planned = current.planned();
+    if (planned.technique == Technique::compute && !planned.resident) {
+        if (samples <= max_searched_points &&
+            max_shape_bytes(*planned.a, *planned.b) <= current.limits.largest_range) {
+            return PointSource::device;
+        }
+        planned.technique = Technique::cpu;
+    }
+    const bool is_by_edge = planned.technique == Technique::cpu && samples <= max_numbered_samples;
+    return is_by_edge ? PointSource::brute_force : PointSource::planner;
+}
+
+/// Whether whole boundaries of so many samples may be left to a source. `kept`: bytes of each point
+/// found, at most. The device keeps its samples itself.
+bool fits_roughly(PointSource source, double samples, double kept, QueryMemory& memory) {
+    return source != PointSource::planner &&
+           memory.fits_roughly(source == PointSource::device ? 0.0 : samples, kept * samples);
+}
+
+/// The same for what localisation leaves of them. Throws as QueryMemory does.
+bool fits(PointSource source, double samples, double kept, QueryMemory& memory) {
+    return source != PointSource::planner &&
+           memory.fits(source == PointSource::device ? 0.0 : samples, kept * samples);
 }
 
 void add_search(std::uint32_t direction, const TransformedPolygon& a, const TransformedPolygon& b,
@@ -87,8 +103,8 @@ void add_search(std::uint32_t direction, const TransformedPolygon& a, const Tran
     planned.points().margin = plan.searched.back().data.margin * unit_length_of(*planned.b);
 }
 
-/// Leaves the points of the query to the device, and with `both_ways` those of B as well: points
-/// inside, or up to `reach` outside.
+/// Leaves the points of the query to the device's search, and with `both_ways` those of B as well:
+/// points inside, or up to `reach` outside.
 void search(double reach, bool both_ways, geometry::RecentlyPlaced& instances,
             CurrentQuery& current, ResultSummary& result) {
     PlannedQuery& planned = current.planned();
@@ -97,7 +113,6 @@ void search(double reach, bool both_ways, geometry::RecentlyPlaced& instances,
     if (!check_numbers(planned, a, b, result)) {
         return;
     }
-    planned.points().source = PointSource::device;
     const Box of_a = a.box.intersection(grown(b.box, reach));
     const Box of_b = b.box.intersection(grown(a.box, reach));
     const bool are_near = !of_a.isEmpty() && !of_b.isEmpty();
@@ -141,6 +156,20 @@ void check_room_for_records(const ResidentBufferTarget* target, std::size_t firs
     }
 }
 
+/// Finds the chains of A that can penetrate; returns an upper bound on the points asked for.
+double find_inside(const PenetrationQuery& query, CurrentQuery& current, std::vector<Chain>& chains,
+                   ResultSummary& result) {
+    const PlannedQuery& planned = current.planned();
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
+    find_chains(current.plan, result, chains, [&] {
+        return localize::chains_in_volume(a, b, current.overlap_options(0.0), chains);
+    });
+    return query.points == PenetrationPoints::vertices
+               ? max_vertices(chains)
+               : max_samples(a, chains, result.cell, b.box());
+}
+
 /// Finds the chains of A that can hold contacts; returns an upper bound on their samples.
 double find_near(const TransformedPolygon& a, const TransformedPolygon& b, double contact_distance,
                  const CurrentQuery& current, std::vector<Chain>& chains, ResultSummary& result) {
@@ -174,58 +203,53 @@ void PointPlanner::add_samples(std::uint32_t direction, const Box& within, Curre
     points.count = static_cast<std::uint32_t>(plan.points.size()) - points.first;
 }
 
+/// Leaves the points of the query to those who need none planned.
+void PointPlanner::leave_to(PointSource source, double reach, bool both_ways, CurrentQuery& current,
+                            ResultSummary& result) {
+    current.planned().points().source = source;
+    if (source == PointSource::device) {
+        search(reach, both_ways, instances_, current, result);
+    }
+}
+
 void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
                         PenetrationResult& result) {
     PlannedQuery& planned = current.planned();
     auto& points = planned.work.emplace<PlannedPoints>();
-    const ErrorBudget budget = penetration_budget(query, planned.deviations);
-    result.error_bound = budget.bound;
-    result.cell = budget.cell;
-    const bool vertices = query.points == PenetrationPoints::vertices;
-    const double bytes_of_record = query.records ? sizeof(PenetrationRecord) : 0.0;
-    const double of_boundary =
-        vertices ? static_cast<double>(planned.a->size()) : max_samples(*planned.a, budget.cell);
-    const bool may_be_by_edge =
-        planned.technique == Technique::cpu && of_boundary <= max_numbered_samples;
-    if (may_be_by_edge && current.memory.fits_roughly(of_boundary, bytes_of_record)) {
-        points.source = PointSource::brute_force;
-        // Nothing is planned: only the bound of the budget is used.
-        planned.budget.bound = budget.bound;
-        planned.budget.cell = budget.cell;
-        return;
-    }
-    planned.budget = budget;
-    if (can_be_searched(current, of_boundary, bytes_of_record)) {
-        points.summarized = !query.records;
-        search(0.0, false, instances_, current, result);
+    planned.budget = penetration_budget(query, planned.deviations);
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    const double of_boundary = query.points == PenetrationPoints::vertices
+                                   ? static_cast<double>(planned.a->size())
+                                   : max_samples(*planned.a, result.cell);
+    const PointSource source = source_for(of_boundary, current);
+    // Of points that are only counted the device leaves out those that cannot be the deepest.
+    points.summarized = source == PointSource::device && !query.records;
+    const double kept = (query.records ? sizeof(PenetrationRecord) : 0.0) +
+                        (points.summarized || source != PointSource::device ? 0.0 : bytes_of_found);
+    if (fits_roughly(source, of_boundary, kept, current.memory)) {
+        leave_to(source, 0.0, false, current, result);
         return;
     }
     if (!check_numbers(planned, result)) {
         return;
     }
-    const TransformedPolygon a(*planned.a, planned.pose_a);
-    const TransformedPolygon b(*planned.b, planned.pose_b);
-    std::vector<Chain>& chains = chains_[0];
-    find_chains(current.plan, result, chains, [&] {
-        return localize::chains_in_volume(a, b, current.overlap_options(0.0), chains);
-    });
-    if (chains.empty()) {
+    const double samples = find_inside(query, current, chains_[0], result);
+    if (chains_[0].empty()) {
         return;
     }
-    const Box box_b = b.box();
-    const double samples =
-        vertices ? max_vertices(chains) : max_samples(a, chains, result.cell, box_b);
-    if (may_be_by_edge && current.memory.fits(samples, bytes_of_record)) {
-        points.source = PointSource::brute_force;
+    if (fits(source, samples, kept, current.memory)) {
+        leave_to(source, 0.0, false, current, result);
     } else {
-        add_deepest(query, box_b, samples, current, result);
+        add_deepest(query, samples, current, result);
     }
 }
 
-void PointPlanner::add_deepest(const PenetrationQuery& query, const Box& box_b, double samples,
-                               CurrentQuery& current, PenetrationResult& result) {
+void PointPlanner::add_deepest(const PenetrationQuery& query, double samples, CurrentQuery& current,
+                               PenetrationResult& result) {
     const PlannedQuery& planned = current.planned();
     const TransformedPolygon a(*planned.a, planned.pose_a);
+    const Box box_b = TransformedPolygon(*planned.b, planned.pose_b).box();
     current.memory.require(bytes_of_point(planned) * samples, 1.0);
     samples_.clear();
     if (query.points == PenetrationPoints::vertices) {
@@ -252,28 +276,26 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
     }
     const double of_boundaries =
         max_samples(*planned.a, result.cell) + max_samples(*planned.b, result.cell);
-    // Gradients are computed around planned points.
-    const bool may_be_by_edge =
-        planned.technique == Technique::cpu && !gradients && of_boundaries <= max_numbered_samples;
-    const double bytes_of_record = query.records ? sizeof(ContactRecord) : 0.0;
-    if (may_be_by_edge && current.memory.fits_roughly(of_boundaries, bytes_of_record)) {
-        points.source = PointSource::brute_force;
-        return;
+    PointSource source = source_for(of_boundaries, current);
+    if (gradients && source == PointSource::brute_force) {
+        source = PointSource::planner;  // they are computed around points of the plan
     }
-    if (!gradients && can_be_searched(current, of_boundaries, bytes_of_record)) {
-        search(query.contact_distance, true, instances_, current, result);
+    const double near = query.contact_distance;
+    const double kept = (query.records ? sizeof(ContactRecord) : 0.0) +
+                        (source == PointSource::device ? bytes_of_found : 0.0);
+    if (fits_roughly(source, of_boundaries, kept, current.memory)) {
+        leave_to(source, near, true, current, result);
         return;
     }
     if (!check_numbers(planned, result)) {
         return;
     }
-    const double near = query.contact_distance;
     const TransformedPolygon a(*planned.a, planned.pose_a);
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const double of_a = find_near(a, b, near, current, chains_[0], result);
     const double of_b = find_near(b, a, near, current, chains_[1], result);
-    if (may_be_by_edge && current.memory.fits(of_a + of_b, bytes_of_record)) {
-        points.source = PointSource::brute_force;
+    if (fits(source, of_a + of_b, kept, current.memory)) {
+        leave_to(source, near, true, current, result);
         return;
     }
     const std::uint32_t reverse = add_reverse(current);
@@ -316,8 +338,12 @@ void PointPlanner::plan_closest(double tolerance, bool both_ways, CurrentQuery& 
     planned.budget = search_budget(tolerance);
     planned.work.emplace<PlannedPoints>().outside = true;
     result.cell = planned.budget.cell;
-    if (planned.technique == Technique::cpu || !check_numbers(planned, result)) {
-        return;  // ClosestDecoder does the rest on the CPU
+    if (planned.technique != Technique::raster) {
+        planned.technique = Technique::cpu;
+        return;  // ClosestDecoder does the rest
+    }
+    if (!check_numbers(planned, result)) {
+        return;
     }
     find_chains(current.plan, result, chains_[0], [&] {
         localize::Effort effort;

@@ -29,9 +29,11 @@ public:
     void plan(const SeparationQuery& query, CurrentQuery& current, SeparationResult& result);
 
 private:
+    void leave_to(PointSource source, double reach, bool both_ways, CurrentQuery& current,
+                  ResultSummary& result);
     /// Samples the chains of A; `samples` is an upper bound on their number.
-    void add_deepest(const PenetrationQuery& query, const geometry::Box& box_b, double samples,
-                     CurrentQuery& current, PenetrationResult& result);
+    void add_deepest(const PenetrationQuery& query, double samples, CurrentQuery& current,
+                     PenetrationResult& result);
     void add_near(std::uint32_t direction, double contact_distance,
                   const std::vector<localize::Chain>& chains, double samples, CurrentQuery& current,
                   ResultSummary& result);

@@ -38,6 +38,12 @@ inline constexpr const char* answered_by_cpu_alone<SeparationVectorQuery> = "sep
 template <>
 inline constexpr const char* answered_by_cpu_alone<ContainmentQuery> = "containment";
 
+/// Whether technique compute leaves a kind of query to the CPU, whose search for the closest pair
+/// is exact and as quick with no bound from a device as with one.
+template <class Query>
+inline constexpr bool is_left_to_cpu_by_compute =
+    std::is_same_v<Query, ClosestPointQuery> || std::is_same_v<Query, SeparationQuery>;
+
 /// Describes, for a message, the part of a query that a technique does not answer; null if it
 /// answers all of it.
 template <class Query>
@@ -58,9 +64,15 @@ template <class Query>
     return may_be_cpu ? nullptr : answered_by_cpu_alone<Query>;
 }
 
-[[nodiscard]] inline bool answers(Technique technique, const AnyQuery& query) {
-    return std::visit([&](const auto& asked) { return unanswered(technique, asked) == nullptr; },
-                      query);
+/// Whether a technique is one to choose from for a query.
+[[nodiscard]] inline bool is_candidate(Technique technique, const AnyQuery& query) {
+    return std::visit(
+        [&]<class Query>(const Query& asked) {
+            const bool is_cpu_after_all =
+                technique == Technique::compute && is_left_to_cpu_by_compute<Query>;
+            return !is_cpu_after_all && unanswered(technique, asked) == nullptr;
+        },
+        query);
 }
 
 /// Returns whether a query needs a second submission because the first one determines where to

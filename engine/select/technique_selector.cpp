@@ -38,8 +38,15 @@ QueryCosts not_hidden(const DeviceCosts& costs, double overlap) {
     return sum_of(sum_of(costs.plan, costs.read, 1.0), costs.device, 1.0 - overlap);
 }
 
+/// The technique that a query asks for, or the CPU's if that one leaves it to the CPU.
 Technique technique_of(const AnyQuery& query) {
-    return std::visit([](const auto& asked) { return asked.technique; }, query);
+    return std::visit(
+        []<class Query>(const Query& asked) {
+            const bool is_left =
+                asked.technique == Technique::compute && plan::is_left_to_cpu_by_compute<Query>;
+            return is_left ? Technique::cpu : asked.technique;
+        },
+        query);
 }
 
 /// Whether the shapes that a query needs are present.
@@ -84,9 +91,9 @@ TechniqueSelector::TechniqueSelector(const CostModel& costs,
 TechniqueSelector::Set TechniqueSelector::techniques_for(const AnyQuery& query) const {
     Set techniques = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const bool can_answer =
-            available_.has(by_position[i]) && plan::answers(by_position[i], query);
-        techniques |= can_answer ? 1U << i : 0U;
+        const bool is_one =
+            available_.has(by_position[i]) && plan::is_candidate(by_position[i], query);
+        techniques |= is_one ? 1U << i : 0U;
     }
     return techniques;
 }

@@ -23,8 +23,10 @@ struct WorkCost {
 
 /// Times of each kind of query.
 struct QueryCosts {
-    WorkCost points = {};        ///< penetration and contacts; a sample is a boundary point
-    WorkCost closest = {};       ///< closest point, separation, intersection test; no samples
+    WorkCost points = {};  ///< penetration and contacts; a sample is a boundary point
+    /// Closest point, separation, intersection test; no samples. Unused of Technique::compute,
+    /// which leaves them to the CPU.
+    WorkCost closest = {};
     WorkCost intersection = {};  ///< intersections; a sample is a cell
     WorkCost field = {};         ///< distance fields except those of `features`; a sample is a cell
     /// Distance fields with features, analytic gradients or points; a sample is a cell.

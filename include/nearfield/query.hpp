@@ -59,6 +59,8 @@ enum class Technique {
     /// (invalid_query) and, with too_large in the result, intersections of millions of edges and
     /// fields of which over 12,000 edges are about equally near to a cell. IntersectionStrategy
     /// and SignEncoding, which are ways of drawing, are ignored and need nothing of the device.
+    /// The CPU answers closest points and separations, which are as technique cpu has them, and
+    /// points of boundaries too large for the device.
     compute,
     /// Runs entirely on the CPU, and its answers have the same bits on every machine. Points are
     /// resolved to single edges in double precision, intersections by bit masks of a raster's

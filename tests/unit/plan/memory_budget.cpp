@@ -47,17 +47,17 @@ TEST(MemoryBudget, RecordsAreEstimatedRoughlyUnlessTheyAreCountedClosely) {
     const PlanLimits limits = limits_with(1U << 28U);
     MemoryBudget roughly(limits, false);
     QueryMemory query(roughly, 0, 1.0);
-    EXPECT_TRUE(query.fits_roughly(1000.0, 1e6));
+    EXPECT_TRUE(query.fits_roughly(1000.0, 1e9));
     EXPECT_EQ(roughly.result_bytes(), 1e9);
     EXPECT_TRUE(roughly.is_exceeded());
     MemoryBudget closely(limits, true);
     QueryMemory again(closely, 0, 1.0);
-    EXPECT_FALSE(again.fits_roughly(1000.0, 1e6));
+    EXPECT_FALSE(again.fits_roughly(1000.0, 1e9));
     EXPECT_TRUE(again.fits_roughly(1000.0, 0.0)) << "without records there is nothing to count";
-    EXPECT_TRUE(again.fits(10.0, 1e6));
+    EXPECT_TRUE(again.fits(10.0, 1e7));
     EXPECT_EQ(closely.result_bytes(), 1e7);
     EXPECT_FALSE(closely.is_exceeded());
-    EXPECT_THROW(static_cast<void>(again.fits(1000.0, 1e6)), StatusException);
+    EXPECT_THROW(static_cast<void>(again.fits(1000.0, 1e9)), StatusException);
 }
 
 TEST(MemoryBudget, WhoNeedsTooMuchIsToldTheToleranceThatFits) {

@@ -307,6 +307,39 @@ TEST_F(PlannerTest, TheDeviceSearchesForContactsAsFarAsTheyReach) {
     EXPECT_EQ(searched_at(0.51), 0U);
 }
 
+TEST_F(PlannerTest, TheDeviceSearchesWhatFitsOnceItIsCountedClosely) {
+    penetration_.technique = Technique::compute;
+    run({penetration_});
+    const auto many =
+        static_cast<std::size_t>(static_cast<double>(limits_.memory) / plan_.result_bytes) + 1;
+    penetration_.b.pose = {{9.9, 9.9}, 0.0};
+    run(std::vector<AnyQuery>(many, penetration_));
+    EXPECT_EQ(plan_.searched.size(), many);
+    EXPECT_TRUE(plan_.tiles.empty());
+    EXPECT_LT(plan_.result_bytes, static_cast<double>(limits_.memory) / 10.0);
+    penetration_.b.pose = {{1.0, 1.0}, 0.0};
+    EXPECT_THROW(run(std::vector<AnyQuery>(4 * many, penetration_)), StatusException);
+    penetration_.records = false;
+    run(std::vector<AnyQuery>(4 * many, penetration_));
+    EXPECT_EQ(plan_.searched.size(), 4 * many);
+    EXPECT_EQ(plan_.result_bytes, 0.0);
+}
+
+TEST_F(PlannerTest, TheCpuHasWhatTheDeviceDoesNotSearch) {
+    limits_.memory = std::uint64_t{1} << 34U;
+    penetration_.technique = Technique::compute;
+    penetration_.tolerance = 1e-5;  // more than 2^21 samples
+    const SeparationQuery separation{penetration_.a, penetration_.b, 0.01, Technique::compute};
+    run({penetration_, separation});
+    EXPECT_TRUE(plan_.searched.empty());
+    EXPECT_TRUE(plan_.tiles.empty());
+    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
+    for (const PlannedQuery& planned : plan_.queries) {
+        EXPECT_EQ(planned.technique, Technique::cpu);
+    }
+    EXPECT_EQ(std::get<PenetrationResult>(results_[0]).technique, Technique::compute);
+}
+
 TEST_F(PlannerTest, ShapesFarApartPlanNothing) {
     penetration_.b.pose.translation = {1000.0, 0.0};
     run({penetration_});
