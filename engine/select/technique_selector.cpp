@@ -248,13 +248,13 @@ TechniqueSelector::Set TechniqueSelector::worthwhile_devices(Set paid) {
         }
         return devices;
     };
-    const auto count = [&](const Savings& savings, double sign) {
+    const auto add = [&](const Savings& savings, double sign) {
         for (std::uint32_t device = 0; device < cpu; ++device) {
             saved_by[device] += sign * savings[device];
         }
     };
     for (const Candidate& candidate : candidates_) {
-        count(candidate.max_saved, 1.0);
+        add(candidate.max_saved, 1.0);
     }
     if (worthwhile() == 0) {
         return 0;
@@ -270,8 +270,8 @@ TechniqueSelector::Set TechniqueSelector::worthwhile_devices(Set paid) {
         if (!candidate.is_estimated) {
             estimate(candidate);
         }
-        count(candidate.max_saved, -1.0);
-        count({saved(candidate, raster), saved(candidate, compute)}, 1.0);
+        add(candidate.max_saved, -1.0);
+        add({saved(candidate, raster), saved(candidate, compute)}, 1.0);
     }
     return worthwhile();
 }
