@@ -46,10 +46,10 @@ PairCounts with_more(PairCounts counts) {
     return counts;
 }
 
-/// What each of so many pieces has on average.
-PairCounts share(PairCounts counts, std::uint32_t pieces) {
+/// What `few` of `all` have on average.
+PairCounts share(PairCounts counts, std::uint32_t few, std::uint32_t all) {
     for (std::uint32_t& count : counts) {
-        count = (count + pieces - 1) / pieces;
+        count = static_cast<std::uint32_t>((std::uint64_t{count} * few + all - 1) / all);
     }
     return counts;
 }
@@ -107,7 +107,12 @@ bool PairParts::set_instances(std::uint32_t count) {
     while (parts_.size() > 1 && parts_.back().first >= count) {
         parts_.pop_back();
     }
-    parts_.back().end = count;
+    PairPart& last = parts_.back();
+    if (count < last.end) {
+        last.needed = share(last.needed, count - last.first, size_of(last));
+        last.counted = {};
+    }
+    last.end = count;
     return true;
 }
 
@@ -116,6 +121,7 @@ void PairParts::grow(std::size_t i, const PairCounts& counts) {
     for (std::size_t stage = 0; stage < counts.size(); ++stage) {
         part.needed[stage] = std::max(part.needed[stage], counts[stage]);
     }
+    part.counted = counts;
     part.capacities = grown(counts, part.capacities);
 }
 
@@ -135,13 +141,22 @@ PairBytes PairParts::bytes_of_all() const {
     return all;
 }
 
-PairBytes PairParts::bytes_of_residents() const {
+PairBytes PairParts::bytes_of_residents(const PairCounts& capacities) const {
+    if (!is_resident_) {
+        return {};
+    }
+    return {0, PairOutputs::bytes_of_records(capacities[plan::record_total]),
+            PairOutputs::bytes_of_pairs(capacities[plan::row_total])};
+}
+
+PairBytes PairParts::bytes_of_all_residents() const {
     PairBytes all;
     for (const PairPart& part : parts_) {
-        all.records += PairOutputs::bytes_of_records(part.capacities[plan::record_total]);
-        all.rows += PairOutputs::bytes_of_pairs(part.capacities[plan::row_total]);
+        const PairBytes own = bytes_of_residents(part.capacities);
+        all.records += own.records;
+        all.rows += own.rows;
     }
-    return is_resident_ ? all : PairBytes{};
+    return all;
 }
 
 bool PairParts::fits(const PairCounts& capacities, const PairLimits& limits) const {
@@ -173,12 +188,13 @@ bool PairParts::join(const PairLimits& limits) {
     const PairCounts twice = sum(both, both);
     const PairBytes all = bytes_of_all();
     const PairBytes more = bytes_of(twice);
-    const std::uint64_t memory =
-        std::max(all.scratch, more.scratch) + all.records + more.records + all.rows + more.rows;
+    const std::uint64_t memory = std::max(all.scratch, more.scratch) + all.found() + more.found() +
+                                 bytes_of_all_residents().found() +
+                                 bytes_of_residents(twice).found();
     if (!fits(twice, limits) || memory > limits.memory) {
         return false;
     }
-    parts_[least] = {parts_[least].first, parts_[least + 1].end, with_much_more(both), both};
+    parts_[least] = {parts_[least].first, parts_[least + 1].end, with_much_more(both), both, both};
     parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(least) + 1);
     return true;
 }
@@ -194,16 +210,16 @@ void PairParts::divide(std::size_t i, const PairLimits& limits) {
                " in one buffer, of which shaders reach ", limits.reach);
     }
     std::uint32_t pieces = 2;
-    while (pieces < size && !fits(with_more(share(whole.needed, pieces)), limits)) {
+    while (pieces < size && !fits(with_more(share(whole.needed, 1, pieces)), limits)) {
         pieces = std::min(pieces + pieces / 2, size);
     }
-    const PairCounts needed = share(whole.needed, pieces);
+    const PairCounts needed = share(whole.needed, 1, pieces);
     std::vector<PairPart> all;
     for (std::uint32_t piece = 0; piece < pieces; ++piece) {
         const auto end_of = [&](std::uint64_t pieces_before) {
             return whole.first + static_cast<std::uint32_t>(pieces_before * size / pieces);
         };
-        all.push_back({end_of(piece), end_of(piece + 1), with_much_more(needed), needed});
+        all.push_back({end_of(piece), end_of(piece + 1), with_much_more(needed), needed, {}});
     }
     const auto place = parts_.begin() + static_cast<std::ptrdiff_t>(i);
     parts_.insert(parts_.erase(place), all.begin(), all.end());
@@ -223,6 +239,16 @@ bool PairParts::shrink(const Room& room) {
     return had_more;
 }
 
+/// Leaves each part the needs that are certain. Returns whether any had others.
+bool PairParts::forget_estimates() {
+    bool had_others = false;
+    for (PairPart& part : parts_) {
+        had_others = had_others || part.needed != part.counted;
+        part.needed = part.counted;
+    }
+    return had_others;
+}
+
 void PairParts::fit(const PairLimits& limits) {
     for (std::size_t i = 0; i < parts_.size();) {
         PairPart& part = parts_[i];
@@ -231,6 +257,9 @@ void PairParts::fit(const PairLimits& limits) {
         }
         if (size_of(part) == 1 && !fits(part.capacities, limits)) {
             part.capacities = part.needed;
+        }
+        if (size_of(part) == 1 && !fits(part.capacities, limits)) {
+            part.capacities = part.needed = part.counted;
         }
         if (fits(part.capacities, limits)) {
             ++i;
@@ -245,8 +274,8 @@ void PairParts::fit(const PairLimits& limits) {
 void PairParts::fit_memory(const PairLimits& limits) {
     for (;;) {
         const PairBytes all = bytes_of_all();
-        const PairBytes residents = bytes_of_residents();
-        const std::uint64_t found = all.records + all.rows + residents.records + residents.rows;
+        const PairBytes residents = bytes_of_all_residents();
+        const std::uint64_t found = all.found() + residents.found();
         const bool is_reached = residents.largest() <= limits.reach;
         if (is_reached && all.scratch + found <= limits.memory) {
             return;
@@ -261,7 +290,7 @@ void PairParts::fit_memory(const PairLimits& limits) {
         const std::uint64_t least_scratch = bytes_of({}).scratch;
         if (is_reached && size_of(*largest) > 1 && least_scratch + found <= limits.memory) {
             divide(static_cast<std::size_t>(largest - parts_.begin()), limits);
-        } else if (shrink([](const PairCounts& needed) { return needed; })) {
+        } else if (shrink([](const PairCounts& needed) { return needed; }) || forget_estimates()) {
             continue;
         } else if (!is_reached) {
             refuse("the pairs that stay", residents.largest(),

@@ -19,6 +19,7 @@ struct PairBytes {
     std::uint64_t records = 0;
     std::uint64_t rows = 0;
 
+    [[nodiscard]] std::uint64_t found() const { return records + rows; }
     [[nodiscard]] std::uint64_t largest() const { return std::max({scratch, records, rows}); }
 };
 
@@ -37,7 +38,8 @@ struct PairPart {
     std::uint32_t first = 0;
     std::uint32_t end = 0;
     PairCounts capacities{};
-    PairCounts needed{};  ///< without anything to spare, as far as that is known
+    PairCounts needed{};   ///< without anything to spare; estimated where nothing was counted
+    PairCounts counted{};  ///< at least so much is needed
 };
 
 /// How much memory a search may use.
@@ -55,10 +57,13 @@ public:
     [[nodiscard]] std::size_t count() const { return parts_.size(); }
     [[nodiscard]] const PairPart& operator[](std::size_t i) const { return parts_[i]; }
 
-    /// Of how many instances they are from now on. Returns whether they are others.
+    /// Of how many instances they are from now on. Returns whether they are others. Of a part that
+    /// loses some, the rest are taken for average ones.
     bool set_instances(std::uint32_t count);
     /// Takes down what a search has counted in a part that had room for it.
-    void note(std::size_t i, const PairCounts& counts) { parts_[i].needed = counts; }
+    void note(std::size_t i, const PairCounts& counts) {
+        parts_[i].needed = parts_[i].counted = counts;
+    }
     /// Makes room for what a search has counted in a part without room for it, and for a little
     /// more. Call fit() then.
     void grow(std::size_t i, const PairCounts& counts);
@@ -66,18 +71,21 @@ public:
     /// did; call fit() then. Precondition: all parts were noted.
     bool join(const PairLimits& limits);
     /// Divides parts that do not fit with a little to spare. Throws StatusException (too_large) if
-    /// one instance does not fit with nothing to spare, or what the search finds.
+    /// what was counted of one instance does not fit with nothing to spare, or what the search
+    /// finds.
     void fit(const PairLimits& limits);
 
 private:
     [[nodiscard]] PairBytes bytes_of(const PairCounts& capacities) const;
     [[nodiscard]] PairBytes bytes_of_all() const;
-    [[nodiscard]] PairBytes bytes_of_residents() const;
+    [[nodiscard]] PairBytes bytes_of_residents(const PairCounts& capacities) const;
+    [[nodiscard]] PairBytes bytes_of_all_residents() const;
     [[nodiscard]] bool fits(const PairCounts& capacities, const PairLimits& limits) const;
     [[nodiscard]] PairCounts with_much_more(const PairCounts& counts) const;
     void divide(std::size_t i, const PairLimits& limits);
     template <class Room>
     bool shrink(const Room& room);
+    bool forget_estimates();
     void fit_memory(const PairLimits& limits);
 
     plan::PairSearchKind kind_;

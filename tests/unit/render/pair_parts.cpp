@@ -1,0 +1,268 @@
+#include <engine/base/status_exception.hpp>
+
+#include <tests/unit/render/searched.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nearfield::render {
+namespace {
+
+using plan::PairGoal;
+using plan::PairQuestion;
+
+constexpr std::uint64_t everything = std::uint64_t{1} << 40U;
+constexpr PairLimits no_limits{everything, everything};
+constexpr PairQuestion penetrations{.goal = PairGoal::penetrations, .records = true};
+
+/// So many pairs, and of the other stages what goes with them.
+PairCounts counts_of(std::uint32_t pairs) {
+    return {10 * pairs, 30 * pairs, 30 * pairs, pairs, 3 * pairs, pairs / 2};
+}
+
+Searched even_world(std::uint32_t instances, std::uint32_t pairs,
+                    const PairQuestion& question = penetrations) {
+    return {question, std::vector<PairCounts>(instances, counts_of(pairs))};
+}
+
+/// Why a world cannot be searched.
+std::string refusal(const Searched& world, PairParts& parts, const PairLimits& limits) {
+    try {
+        world.search(parts, limits);
+    } catch (const StatusException& error) {
+        EXPECT_EQ(error.status().code(), StatusCode::too_large);
+        return error.status().message();
+    }
+    return {};
+}
+
+TEST(PairParts, OneHasAllInstancesIfItFits) {
+    const Searched world = even_world(1000, 40);
+    PairParts parts(penetrations);
+    EXPECT_EQ(world.search(parts, no_limits), 3) << "of pairs, of the rest, and with room for all";
+    ASSERT_EQ(parts.count(), 1U);
+    EXPECT_EQ(parts[0].needed, world.counts(0, 1000));
+    EXPECT_EQ(world.search(parts, no_limits), 1);
+}
+
+TEST(PairParts, AreAsManyAsTheReachOfShadersAsksFor) {
+    const Searched world = even_world(1000, 40);
+    const std::uint64_t all = world.bytes(world.counts(0, 1000)).largest();
+    PairParts parts(penetrations);
+    world.search(parts, {all / 3, everything});
+    EXPECT_GE(parts.count(), 4U);
+    EXPECT_LE(parts.count(), 6U);
+    EXPECT_EQ(world.search(parts, {all / 3, everything}), 1);
+}
+
+TEST(PairParts, AreAsManyAsTheMemoryAsksFor) {
+    const Searched world = even_world(1000, 40);
+    const PairBytes all = world.bytes(world.counts(0, 1000));
+    const std::uint64_t memory = all.found() + all.scratch / 2;
+    PairParts parts(penetrations);
+    world.search(parts, {everything, memory});
+    EXPECT_GE(parts.count(), 2U);
+    EXPECT_LE(parts.count(), 4U);
+    EXPECT_EQ(world.search(parts, {everything, memory}), 1);
+}
+
+/// The first division takes all instances for average ones.
+TEST(PairParts, ThatAreUnevenAreDividedAgain) {
+    Searched world = even_world(1000, 1);
+    for (std::uint32_t i = 700; i < 710; ++i) {
+        world.instances()[i] = counts_of(3000);
+    }
+    const std::uint64_t reach = world.bytes(world.counts(0, 1000)).largest() / 4;
+    PairParts parts(penetrations);
+    world.search(parts, {reach, everything});
+    std::size_t with_many = 0;
+    for (std::size_t i = 0; i < parts.count(); ++i) {
+        with_many += parts[i].end > 700 && parts[i].first < 710 ? 1U : 0U;
+    }
+    EXPECT_GE(with_many, 4U);
+    EXPECT_LE(parts.count() - with_many, 8U) << "others are not divided as often";
+}
+
+TEST(PairParts, AreJoinedIfTwiceAsMuchFits) {
+    const Searched crowd = even_world(400, 100);
+    const PairLimits limits{crowd.bytes(crowd.counts(0, 400)).largest() / 3, everything};
+    PairParts parts(penetrations);
+    crowd.search(parts, limits);
+    ASSERT_GE(parts.count(), 4U);
+    EXPECT_FALSE(parts.join(limits)) << "it has just been divided";
+    const Searched sparse = even_world(400, 10);
+    sparse.search(parts, limits);
+    for (std::size_t count = parts.count(); count > 1; --count) {
+        ASSERT_TRUE(parts.join(limits));
+        EXPECT_EQ(sparse.search(parts, limits), 1) << "there is room for what was counted";
+        ASSERT_EQ(parts.count(), count - 1);
+    }
+    EXPECT_FALSE(parts.join(limits)) << "there is one";
+    EXPECT_EQ(parts[0].needed, sparse.counts(0, 400));
+}
+
+TEST(PairParts, AreJoinedWhereTheLeastIsNeeded) {
+    Searched world = even_world(900, 100);
+    const PairLimits limits{world.bytes(world.counts(0, 900)).largest() / 2, everything};
+    PairParts parts(penetrations);
+    world.search(parts, limits);
+    ASSERT_GE(parts.count(), 3U);
+    const std::vector<std::uint32_t> ends{parts[0].end, parts[1].end, parts[2].end};
+    for (std::uint32_t i = ends[0]; i < ends[2]; ++i) {
+        world.instances()[i] = counts_of(2);
+    }
+    world.search(parts, limits);
+    ASSERT_TRUE(parts.join(limits));
+    EXPECT_EQ(parts[0].end, ends[0]);
+    EXPECT_EQ(parts[1].end, ends[2]);
+}
+
+/// Or they would be joined and divided in turns.
+TEST(PairParts, ThatStayOnTheDeviceAreNotJoinedWithoutMemoryForThat) {
+    PairQuestion question = penetrations;
+    question.resident = true;
+    const Searched world = even_world(1000, 40, question);
+    const PairCounts all = world.counts(0, 1000);
+    const PairBytes bytes = world.bytes(all);
+    const PairBytes resident = world.resident_bytes(all);
+    PairParts parts(question);
+    const auto limits_of = [&](double share) {
+        const double more = 1.125 * static_cast<double>(bytes.found() + resident.found());
+        return PairLimits{everything, static_cast<std::uint64_t>(
+                                          more + share * static_cast<double>(bytes.scratch))};
+    };
+    world.search(parts, limits_of(0.3));
+    const std::size_t count = parts.count();
+    ASSERT_GE(count, 4U);
+    for (double share = 0.3; share < 6.0; share *= 1.1) {
+        const PairLimits limits = limits_of(share);
+        const std::size_t before = parts.count();
+        const bool was_joined = parts.join(limits);
+        EXPECT_EQ(world.search(parts, limits), 1);
+        EXPECT_EQ(parts.count(), was_joined ? before - 1 : before) << "memory for " << share;
+    }
+    EXPECT_LT(parts.count(), count);
+}
+
+TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
+    const Searched world = even_world(1000, 40);
+    const PairCounts all = world.counts(0, 1000);
+    PairParts parts(penetrations);
+    world.search(parts, no_limits);
+    const PairBytes bytes = world.bytes(all);
+    const std::uint64_t memory = bytes.scratch + bytes.found();
+    world.search(parts, {everything, memory + memory / 7});
+    ASSERT_EQ(parts.count(), 1U);
+    EXPECT_EQ(parts[0].capacities[plan::edge_total], all[plan::edge_total] * 9 / 8)
+        << "an eighth is to spare";
+
+    Searched one = even_world(1, 4000);
+    PairParts of_one(penetrations);
+    one.search(of_one, no_limits);
+    const std::uint64_t exactly = one.bytes(one.counts(0, 1)).largest();
+    EXPECT_EQ(one.search(of_one, {exactly, everything}), 1);
+    EXPECT_EQ(of_one[0].capacities, one.counts(0, 1));
+    EXPECT_NE(refusal(one, of_one, {exactly - 1, everything}), "");
+}
+
+TEST(PairParts, FollowTheNumberOfInstances) {
+    const Searched world = even_world(1000, 40);
+    const PairLimits limits{world.bytes(world.counts(0, 1000)).largest() / 4, everything};
+    PairParts parts(penetrations);
+    EXPECT_TRUE(parts.set_instances(1000));
+    EXPECT_FALSE(parts.set_instances(1000));
+    world.search(parts, limits);
+    const std::size_t count = parts.count();
+    ASSERT_GE(count, 4U);
+    const std::uint32_t second = parts[1].first;
+
+    EXPECT_TRUE(parts.set_instances(2000)) << "the last part has those that were added";
+    ASSERT_EQ(parts.count(), count);
+    EXPECT_EQ(parts[count - 1].end, 2000U);
+    EXPECT_TRUE(parts.set_instances(second + 1)) << "parts without instances end";
+    ASSERT_EQ(parts.count(), 2U);
+    EXPECT_EQ(parts[1].end, second + 1);
+    EXPECT_TRUE(parts.set_instances(second));
+    ASSERT_EQ(parts.count(), 1U);
+    EXPECT_TRUE(parts.set_instances(0));
+    EXPECT_EQ(parts.count(), 1U);
+    EXPECT_TRUE(parts.set_instances(3));
+    even_world(3, 10).expect_all(parts, limits);
+}
+
+/// What was counted of many says nothing about a few of them.
+TEST(PairParts, OfFewerInstancesThanWereCountedAreNotRefused) {
+    const Searched world = even_world(1000, 400);
+    const Searched few = even_world(2, 400);
+    const PairLimits limits{std::uint64_t{1} << 22U, everything};
+    PairParts parts(penetrations);
+    static_cast<void>(parts.set_instances(1000));
+    parts.fit(limits);
+    parts.grow(0, world.counts(0, 1000));
+    few.search(parts, limits);
+    EXPECT_EQ(parts.count(), 1U);
+}
+
+/// Each of the two is taken for half of both, until it was counted.
+TEST(PairParts, AreNotRefusedForWhatWasEstimated) {
+    const Searched world(penetrations, {{0, 0, 0, 45000, 0, 0}, {200000, 0, 0, 10, 0, 0}});
+    const std::uint64_t largest = std::max(world.bytes(world.counts(0, 1)).largest(),
+                                           world.bytes(world.counts(1, 2)).largest());
+    PairParts parts(penetrations);
+    world.search(parts, {largest, everything});
+    EXPECT_EQ(parts.count(), 2U);
+}
+
+/// What was counted of one part and estimated of another is more than there is.
+TEST(PairParts, AreNotRefusedForEstimatesOfAllTogether) {
+    const Searched world(penetrations, {{0, 0, 0, 45000, 0, 0}, {200000, 0, 100000, 10, 0, 0}});
+    const PairBytes first = world.bytes(world.counts(0, 1));
+    const PairBytes second = world.bytes(world.counts(1, 2));
+    const std::uint64_t scratch = std::max(first.scratch, second.scratch);
+    PairParts parts(penetrations);
+    world.search(parts, {everything, scratch + first.found() + second.found()});
+    EXPECT_EQ(parts.count(), 2U);
+}
+
+TEST(PairParts, SayWhatIsTooLarge) {
+    const Searched world = even_world(3, 4000);
+    const PairBytes bytes = world.bytes(counts_of(4000));
+    const std::uint64_t reach = bytes.largest() - 1;
+    PairParts parts(penetrations);
+    EXPECT_EQ(refusal(world, parts, {reach, everything}),
+              "the pairs of one instance need " + std::to_string(reach + 1) +
+                  " bytes on the device in one buffer, of which shaders reach " +
+                  std::to_string(reach));
+}
+
+TEST(PairParts, SayThatAllOfThemAreTooLarge) {
+    const Searched world = even_world(1, 4000);
+    const PairBytes bytes = world.bytes(world.counts(0, 1));
+    const std::uint64_t all = bytes.scratch + bytes.found();
+    PairParts parts(penetrations);
+    world.search(parts, no_limits);
+    EXPECT_EQ(refusal(world, parts, {everything, all}), "");
+    EXPECT_EQ(refusal(world, parts, {everything, all - 1}),
+              "the pairs of the world need " + std::to_string(all) +
+                  " bytes on the device; Settings::memory_limit is " + std::to_string(all - 1));
+}
+
+TEST(PairParts, SayWhatThatStaysIsTooLarge) {
+    PairQuestion question = penetrations;
+    question.resident = true;
+    const Searched world = even_world(1000, 40, question);
+    const std::uint64_t records = world.resident_bytes(world.counts(0, 1000)).records;
+    PairParts parts(question);
+    world.search(parts, no_limits);
+    const std::uint64_t reach = records - 1;
+    EXPECT_EQ(refusal(world, parts, {reach, everything}),
+              "the pairs that stay need " + std::to_string(records) +
+                  " bytes on the device in one buffer, of which shaders reach " +
+                  std::to_string(reach));
+}
+
+}  // namespace
+}  // namespace nearfield::render
