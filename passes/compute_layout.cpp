@@ -1,5 +1,7 @@
 #include <passes/compute_layout.hpp>
 
+#include <shaders/search.h>
+
 #include <array>
 
 namespace nearfield::passes {
