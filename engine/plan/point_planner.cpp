@@ -203,7 +203,7 @@ void PointPlanner::add_samples(std::uint32_t direction, const Box& within, Curre
     points.count = static_cast<std::uint32_t>(plan.points.size()) - points.first;
 }
 
-/// Leaves the points of the query to those who need none planned.
+/// Leaves the points of the query to a source that needs none planned.
 void PointPlanner::leave_to(PointSource source, double reach, bool both_ways, CurrentQuery& current,
                             ResultSummary& result) {
     current.planned().points().source = source;
