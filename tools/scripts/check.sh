@@ -41,12 +41,13 @@ check_sanitized() {
     # A program and its tests per line; they run in parallel, the longest first.
     local runs=(
         'driver/test_driver HostMemory.*' 'driver/test_driver -HostMemory.*'
-        'test_geometry *' 'test_localize *' 'test_simd *' 'test_narrowphase *' 'test_grid *'
-        'test_cpu *' 'test_plan *' 'test_graph -GraphExecute.*' 'test_mtv *' 'worlds/test_worlds *'
+        'test_geometry *' 'test_outline *' 'test_localize *' 'test_simd *' 'test_narrowphase *'
+        'test_grid *' 'test_cpu *' 'test_plan *' 'test_graph -GraphExecute.*' 'test_mtv *'
+        'worlds/test_worlds *'
     )
     configure sanitize >/dev/null
-    build sanitize --target test_driver test_geometry test_localize test_simd test_narrowphase \
-        test_grid test_cpu test_plan test_graph test_mtv test_worlds test_limits test_reload
+    build sanitize --target test_driver test_geometry test_outline test_localize test_simd \
+        test_narrowphase test_grid test_cpu test_plan test_graph test_mtv test_worlds test_limits test_reload
     printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
         bash -c '"$0/$1" --gtest_brief=1 --gtest_filter="$2"' "$root/build/sanitize/tests"
     # On a device, so without leak detection: calls that are ended at every stage, and shader reload,

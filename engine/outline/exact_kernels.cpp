@@ -1,4 +1,4 @@
-#include <engine/geometry/exact_kernels.hpp>
+#include <engine/outline/exact_kernels.hpp>
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 // Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
 // Discrete & Computational Geometry 18(3), 1997. A sum of doubles that do not overlap holds a
 // number exactly; it is computed only where rounding could change the sign.
-namespace nearfield::geometry::exact {
+namespace nearfield::outline::exact {
 namespace {
 
 constexpr double half_epsilon = 0.5 * std::numeric_limits<double>::epsilon();
@@ -166,4 +166,4 @@ double approximate_coordinate(const Crossing& crossing, Axis axis) {
     return at_a + part * (coordinate(b, axis) - at_a);
 }
 
-}  // namespace nearfield::geometry::exact
+}  // namespace nearfield::outline::exact

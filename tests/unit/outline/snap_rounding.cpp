@@ -1,5 +1,5 @@
 #include <engine/base/status_exception.hpp>
-#include <engine/geometry/snap_rounding.hpp>
+#include <engine/outline/snap_rounding.hpp>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace nearfield::geometry {
+namespace nearfield::outline {
 namespace {
 
 /// A fraction with a denominator above 0.
@@ -140,4 +140,4 @@ TEST(SnapRounding, CrossingsCount) {
 }
 
 }  // namespace
-}  // namespace nearfield::geometry
+}  // namespace nearfield::outline

@@ -1,11 +1,11 @@
-#include <engine/geometry/winding_sweep.hpp>
+#include <engine/outline/winding_sweep.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <set>
 #include <utility>
 
-namespace nearfield::geometry {
+namespace nearfield::outline {
 namespace {
 
 /// A line sweeps over the subdivision from cell to cell, as if slightly inclined, so that of cells
@@ -268,4 +268,4 @@ std::vector<std::vector<Cell>> join_to_rings(std::span<const Cell> cells,
     return rings;
 }
 
-}  // namespace nearfield::geometry
+}  // namespace nearfield::outline

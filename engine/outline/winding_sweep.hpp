@@ -1,12 +1,12 @@
 #pragma once
 
-#include <engine/geometry/snap_rounding.hpp>
+#include <engine/outline/snap_rounding.hpp>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace nearfield::geometry {
+namespace nearfield::outline {
 
 /// An edge of a planar subdivision between the centres of two cells.
 struct PlanarEdge {
@@ -61,4 +61,4 @@ template <class IsInside>
 [[nodiscard]] std::vector<std::vector<Cell>> join_to_rings(std::span<const Cell> cells,
                                                            std::span<const BoundaryEdge> boundary);
 
-}  // namespace nearfield::geometry
+}  // namespace nearfield::outline

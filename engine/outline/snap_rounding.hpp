@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace nearfield::geometry {
+namespace nearfield::outline {
 
 /// A cell of the integer grid: the square [x - 1/2, x + 1/2) x [y - 1/2, y + 1/2). Cells are
 /// ordered by x, then by y.
@@ -55,4 +55,4 @@ struct SnapRounding {
 /// than `most` cells would be hot.
 [[nodiscard]] SnapRounding snap_round(std::span<const Ring> rings, std::size_t most);
 
-}  // namespace nearfield::geometry
+}  // namespace nearfield::outline

@@ -1,14 +1,14 @@
 #include <engine/base/status_exception.hpp>
-#include <engine/geometry/box_pairs.hpp>
-#include <engine/geometry/exact_kernels.hpp>
-#include <engine/geometry/snap_rounding.hpp>
+#include <engine/outline/box_pairs.hpp>
+#include <engine/outline/exact_kernels.hpp>
+#include <engine/outline/snap_rounding.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
-namespace nearfield::geometry {
+namespace nearfield::outline {
 namespace {
 
 using exact::Axis;
@@ -116,14 +116,15 @@ public:
     }
 
 private:
-    /// The boxes of the segments, grown so that they contain every cell that a segment passes.
-    static std::vector<Box> boxes_of(std::span<const Segment> segments) {
-        std::vector<Box> boxes;
+    /// The boxes of the segments, geometry::grown so that they contain every cell that a segment
+    /// passes.
+    static std::vector<geometry::Box> boxes_of(std::span<const Segment> segments) {
+        std::vector<geometry::Box> boxes;
         boxes.reserve(segments.size());
         for (const Segment& segment : segments) {
-            Box box(to_vector(segment.a));
-            box.extend(to_vector(segment.b));
-            boxes.push_back(grown(box, 1.0));
+            geometry::Box box(geometry::to_vector(segment.a));
+            box.extend(geometry::to_vector(segment.b));
+            boxes.push_back(geometry::grown(box, 1.0));
         }
         return boxes;
     }
@@ -179,8 +180,9 @@ private:
     void add_passages_of_crossings() {
         keep_different_crossings();
         for (const Cell& cell : crossings_) {
-            const Vector centre(static_cast<double>(cell.x), static_cast<double>(cell.y));
-            tree_.for_boxes_at(Box(centre), [&](std::uint32_t i) { add_if_passing(i, cell); });
+            const geometry::Vector centre(static_cast<double>(cell.x), static_cast<double>(cell.y));
+            tree_.for_boxes_at(geometry::Box(centre),
+                               [&](std::uint32_t i) { add_if_passing(i, cell); });
         }
     }
 
@@ -293,4 +295,4 @@ SnapRounding snap_round(std::span<const Ring> rings, std::size_t most) {
     return result;
 }
 
-}  // namespace nearfield::geometry
+}  // namespace nearfield::outline

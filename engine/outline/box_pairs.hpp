@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-namespace nearfield::geometry {
+namespace nearfield::outline {
 
 /// A hierarchy of boxes over boxes that are neighbours in the plane, for all pairs among them.
 class BoxPairs {
 public:
-    explicit BoxPairs(std::span<const Box> boxes);
+    explicit BoxPairs(std::span<const geometry::Box> boxes);
 
     /// Calls `visit(i, j)` once for each pair of different boxes that share a point, by index.
     template <class Visit>
@@ -24,7 +24,7 @@ public:
 
     /// Calls `visit(i)` for each box that shares a point with another one.
     template <class Visit>
-    void for_boxes_at(const Box& box, const Visit& visit) const {
+    void for_boxes_at(const geometry::Box& box, const Visit& visit) const {
         if (!levels_.front().empty() && levels_.back().front().intersects(box)) {
             visit_at(levels_.size() - 1, 0, box, visit);
         }
@@ -71,7 +71,8 @@ private:
     }
 
     template <class Visit>
-    void visit_at(std::size_t level, std::size_t node, const Box& box, const Visit& visit) const {
+    void visit_at(std::size_t level, std::size_t node, const geometry::Box& box,
+                  const Visit& visit) const {
         if (level == 0) {
             visit(order_[node]);
             return;
@@ -83,8 +84,9 @@ private:
         }
     }
 
-    std::vector<std::uint32_t> order_;      // in Morton order of their centres
-    std::vector<std::vector<Box>> levels_;  // the boxes in this order, then around four of them ...
+    std::vector<std::uint32_t> order_;  // in Morton order of their centres
+    std::vector<std::vector<geometry::Box>>
+        levels_;  // the boxes in this order, then around four of them ...
 };
 
-}  // namespace nearfield::geometry
+}  // namespace nearfield::outline

@@ -8,7 +8,7 @@
 /// Signs without rounding. Coordinates are 0 or between 2^-200 and 2^60 in magnitude, so that no
 /// product underflows or overflows.
 
-namespace nearfield::geometry::exact {
+namespace nearfield::outline::exact {
 
 /// The sign of cross(b - a, c - a): 1 if c lies to the left of the line from a to b, 0 on it.
 [[nodiscard]] int orientation(const Vector2& a, const Vector2& b, const Vector2& c);
@@ -29,4 +29,4 @@ struct Crossing {
 /// A coordinate of that point, rounded by an unknown amount.
 [[nodiscard]] double approximate_coordinate(const Crossing& crossing, Axis axis);
 
-}  // namespace nearfield::geometry::exact
+}  // namespace nearfield::outline::exact

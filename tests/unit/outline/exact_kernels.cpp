@@ -1,4 +1,4 @@
-#include <engine/geometry/exact_kernels.hpp>
+#include <engine/outline/exact_kernels.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/unit/support/winding_oracle.hpp>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <random>
 
-namespace nearfield::geometry {
+namespace nearfield::outline {
 namespace {
 
 using exact::Axis;
@@ -143,4 +143,4 @@ TEST(ExactKernels, CoordinatesOfCrossingsAreComparedWithoutRounding) {
 }
 
 }  // namespace
-}  // namespace nearfield::geometry
+}  // namespace nearfield::outline

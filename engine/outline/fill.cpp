@@ -1,9 +1,9 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/geometry/number.hpp>
 #include <engine/geometry/ring_check.hpp>
-#include <engine/geometry/snap_rounding.hpp>
 #include <engine/geometry/vector.hpp>
-#include <engine/geometry/winding_sweep.hpp>
+#include <engine/outline/snap_rounding.hpp>
+#include <engine/outline/winding_sweep.hpp>
 #include <nearfield/fill.hpp>
 
 #include <algorithm>
@@ -16,11 +16,11 @@
 namespace nearfield {
 namespace {
 
-using geometry::BoundaryEdge;
-using geometry::Cell;
-using geometry::PlanarEdge;
-using geometry::SnappedEdge;
-using geometry::SnapRounding;
+using outline::BoundaryEdge;
+using outline::Cell;
+using outline::PlanarEdge;
+using outline::SnappedEdge;
+using outline::SnapRounding;
 
 /// Half the diagonal of a cell of side 1, rounded up: how far a point moves.
 constexpr double half_diagonal = 0.7072;
@@ -109,7 +109,7 @@ std::vector<PlanarEdge> odd_edges(std::span<const SnappedEdge> edges) {
     for (const SnappedEdge& edge : edges) {
         planar_edges.push_back({std::min(edge.from, edge.to), std::max(edge.from, edge.to), 1});
     }
-    geometry::merge_edges(planar_edges);
+    outline::merge_edges(planar_edges);
     std::erase_if(planar_edges, [](const PlanarEdge& edge) { return edge.weight % 2 == 0; });
     for (PlanarEdge& edge : planar_edges) {
         edge.weight = 1;
@@ -138,12 +138,12 @@ std::vector<PlanarEdge> edges_of_parts(SnapRounding& rounding,
         }
         const std::vector<PlanarEdge> of_part =
             odd_edges(std::span(edges).subspan(first, end - first));
-        for (const BoundaryEdge& edge : geometry::boundary_edges(rounding.cells, of_part, is_odd)) {
+        for (const BoundaryEdge& edge : outline::boundary_edges(rounding.cells, of_part, is_odd)) {
             result.push_back(planar(edge.from, edge.to));
         }
         first = end;
     }
-    geometry::merge_edges(result);
+    outline::merge_edges(result);
     return result;
 }
 
@@ -176,24 +176,24 @@ std::vector<std::uint32_t> parts_of(std::size_t rings, std::span<const std::uint
 std::vector<BoundaryEdge> find_boundary(SnapRounding& rounding, FillRule rule,
                                         std::span<const std::uint32_t> parts) {
     if (rule == FillRule::odd_even) {
-        return geometry::boundary_edges(rounding.cells, odd_edges(rounding.edges), is_odd);
+        return outline::boundary_edges(rounding.cells, odd_edges(rounding.edges), is_odd);
     }
     if (rule == FillRule::union_of_parts) {
-        return geometry::boundary_edges(rounding.cells, edges_of_parts(rounding, parts),
-                                        [](std::int32_t winding) { return winding > 0; });
+        return outline::boundary_edges(rounding.cells, edges_of_parts(rounding, parts),
+                                       [](std::int32_t winding) { return winding > 0; });
     }
     std::vector<PlanarEdge> edges;
     edges.reserve(rounding.edges.size());
     for (const SnappedEdge& edge : rounding.edges) {
         edges.push_back(planar(edge.from, edge.to));
     }
-    geometry::merge_edges(edges);
+    outline::merge_edges(edges);
     if (rule == FillRule::positive) {
-        return geometry::boundary_edges(rounding.cells, edges,
-                                        [](std::int32_t winding) { return winding > 0; });
+        return outline::boundary_edges(rounding.cells, edges,
+                                       [](std::int32_t winding) { return winding > 0; });
     }
-    return geometry::boundary_edges(rounding.cells, edges,
-                                    [](std::int32_t winding) { return winding != 0; });
+    return outline::boundary_edges(rounding.cells, edges,
+                                   [](std::int32_t winding) { return winding != 0; });
 }
 
 Ring in_units(std::span<const Cell> cells, double side) {
@@ -215,12 +215,12 @@ ResolvedFill resolve(std::span<const Ring> rings, FillRule rule, const FillSetti
     }
     geometry::require_usable(rings);
     const Grid grid = choose_grid(rings, settings.deviation);
-    SnapRounding rounding = geometry::snap_round(in_cells(rings, grid.side), settings.most);
+    SnapRounding rounding = outline::snap_round(in_cells(rings, grid.side), settings.most);
     const std::vector<BoundaryEdge> boundary = find_boundary(rounding, rule, parts);
 
     ResolvedFill result;
     result.deviation = half_diagonal * grid.side;
-    for (const std::vector<Cell>& cells : geometry::join_to_rings(rounding.cells, boundary)) {
+    for (const std::vector<Cell>& cells : outline::join_to_rings(rounding.cells, boundary)) {
         Ring ring = in_units(cells, grid.side);
         if (geometry::strip_width(ring) > grid.thinnest) {
             result.rings.push_back(std::move(ring));

@@ -1,8 +1,8 @@
 #include <engine/base/status_exception.hpp>
-#include <engine/geometry/exact_kernels.hpp>
 #include <engine/geometry/number.hpp>
 #include <engine/geometry/ring_check.hpp>
 #include <engine/geometry/vector.hpp>
+#include <engine/outline/exact_kernels.hpp>
 #include <nearfield/fill.hpp>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using geometry::Vector;
 /// An upper bound on the least height of a triangle. No point of it is farther than that from the
 /// two sides that meet at b.
 double least_height(const Vector2& a, const Vector2& b, const Vector2& c) {
-    if (geometry::exact::orientation(a, b, c) == 0) {
+    if (outline::exact::orientation(a, b, c) == 0) {
         return 0.0;
     }
     const Vector ab = to_vector(b) - to_vector(a);

@@ -1,10 +1,10 @@
-#include <engine/geometry/box_pairs.hpp>
+#include <engine/outline/box_pairs.hpp>
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-namespace nearfield::geometry {
+namespace nearfield::outline {
 namespace {
 
 /// The lower 16 bits, with a zero before each.
@@ -16,16 +16,16 @@ std::uint32_t spread(std::uint32_t bits) {
     return (bits | (bits << 1U)) & 0x55555555U;
 }
 
-std::vector<std::uint32_t> morton_order(std::span<const Box> boxes) {
-    Box all;
-    for (const Box& box : boxes) {
+std::vector<std::uint32_t> morton_order(std::span<const geometry::Box> boxes) {
+    geometry::Box all;
+    for (const geometry::Box& box : boxes) {
         all.extend(box.center());
     }
-    const Vector scale = 65535.0 * all.sizes().cwiseMax(1e-300).cwiseInverse();
+    const geometry::Vector scale = 65535.0 * all.sizes().cwiseMax(1e-300).cwiseInverse();
     std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
     codes.reserve(boxes.size());
-    for (const Box& box : boxes) {
-        const Vector place = (box.center() - all.min()).cwiseProduct(scale);
+    for (const geometry::Box& box : boxes) {
+        const geometry::Vector place = (box.center() - all.min()).cwiseProduct(scale);
         codes.emplace_back(spread(static_cast<std::uint32_t>(place.x())) |
                                (spread(static_cast<std::uint32_t>(place.y())) << 1U),
                            static_cast<std::uint32_t>(codes.size()));
@@ -41,18 +41,18 @@ std::vector<std::uint32_t> morton_order(std::span<const Box> boxes) {
 
 }  // namespace
 
-BoxPairs::BoxPairs(std::span<const Box> boxes) : order_(morton_order(boxes)) {
-    std::vector<Box>& leaves = levels_.emplace_back();
+BoxPairs::BoxPairs(std::span<const geometry::Box> boxes) : order_(morton_order(boxes)) {
+    std::vector<geometry::Box>& leaves = levels_.emplace_back();
     leaves.reserve(boxes.size());
     for (const std::uint32_t index : order_) {
         leaves.push_back(boxes[index]);
     }
     while (levels_.back().size() > 1) {
-        const std::vector<Box>& below = levels_.back();
-        std::vector<Box> level;
+        const std::vector<geometry::Box>& below = levels_.back();
+        std::vector<geometry::Box> level;
         level.reserve(below.size() / children + 1);
         for (std::size_t first = 0; first < below.size(); first += children) {
-            Box box;
+            geometry::Box box;
             for (std::size_t i = first; i < std::min(first + children, below.size()); ++i) {
                 box.extend(below[i]);
             }
@@ -62,4 +62,4 @@ BoxPairs::BoxPairs(std::span<const Box> boxes) : order_(morton_order(boxes)) {
     }
 }
 
-}  // namespace nearfield::geometry
+}  // namespace nearfield::outline
