@@ -2,9 +2,7 @@
 # Sets up and runs the checks that the tests do not cover: the reference, the libraries' symbols, links,
 # format, clang-tidy, the sanitizers, and that answers have the same bits by another compiler and on
 # another processor. Stops at the first check that fails.
-#   check.sh [--mutants] [--no-setup]
-# With --mutants, at the end, also whether the tests notice each mistake of tools/mutation, which takes
-# hours.
+#   check.sh [--no-setup]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -128,11 +126,6 @@ check_links() {
     "$root/tools/scripts/check_links.py" "$root/build/documents"
 }
 
-mutants=false
-if [[ ${1-} == --mutants ]]; then
-    mutants=true
-    shift
-fi
 if wants_setup "$@"; then
     step "Install what is missing" "$root/tools/scripts/setup.sh" test
     step "Install other compilers" "$root/tools/scripts/setup.sh" bits
@@ -143,14 +136,10 @@ step "Reference" check_reference
 step "Symbols of the libraries" check_symbols
 step "Links" check_links
 step "Includes" "$root/tools/scripts/check_includes.py"
-step "Mutants apply" "$root/tools/mutation/mutation.py" check
 step "Format" check_format
 step "clang-tidy" check_tidy
 step "Sanitizers" check_sanitized
 step "Threads" check_threads
 step "The same bits" "$root/tools/scripts/same_bits.sh" clang-O3 aarch64-O2
-if $mutants; then
-    step "Mutants" "$root/tools/mutation/mutation.py" run
-fi
 printf '\n== All checks passed\n'
 print_test_counts
