@@ -134,6 +134,8 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
         return Status(StatusCode::invalid_query, "find_pairs: the reach is " + plan::number(reach) +
                                                      "; it must be a finite number of at least 0");
     }
+    box_origins_.resize(std::max(box_origins_.size(), instances.size()));
+    boxes_.resize(box_origins_.size());
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const geometry::Polygon* const polygon = shapes_.find(instances[i].shape);
         Status status = polygon == nullptr
@@ -142,10 +144,6 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
         if (!status.ok()) {
             return Status(status.code(),
                           "find_pairs: instance " + std::to_string(i) + ": " + status.message());
-        }
-        if (i == boxes_.size()) {
-            boxes_.emplace_back();
-            box_origins_.emplace_back();
         }
         if (const BoxOrigin origin{polygon, polygon->revision(), instances[i].pose};
             !(box_origins_[i] == origin)) {

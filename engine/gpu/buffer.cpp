@@ -47,8 +47,14 @@ bool MappedBuffer::reserve(std::uint64_t bytes) {
     data_ = nullptr;
     buffer_.reset();
     memory_.reset();
-    create_buffer(capacity);
-    allocate_memory();
+    try {
+        create_buffer(capacity);
+        allocate_memory();
+    } catch (...) {
+        buffer_.reset();
+        memory_.reset();
+        throw;
+    }
     capacity_ = capacity;
     return true;
 }

@@ -25,8 +25,7 @@ public:
 
     /// Grows the buffer to `bytes` (at least one) if it is smaller. Growing discards its content
     /// and must not happen while the device uses the buffer. Returns true if the buffer was
-    /// replaced. Throws StatusException (too_large) if a storage buffer would exceed what a shader
-    /// can address; after any StatusException the buffer is empty.
+    /// replaced. Throws StatusException; after any exception there is no buffer.
     bool reserve(std::uint64_t bytes);
 
     [[nodiscard]] VkBuffer handle() const { return buffer_.get(); }

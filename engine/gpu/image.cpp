@@ -19,9 +19,15 @@ bool KeptImage::reserve(VkExtent2D extent) {
     view_.reset();
     image_.reset();
     memory_.reset();
-    create_image(extent);
-    allocate_memory();
-    create_view();
+    try {
+        create_image(extent);
+        allocate_memory();
+        create_view();
+    } catch (...) {
+        image_.reset();
+        memory_.reset();
+        throw;
+    }
     extent_ = extent;
     return true;
 }

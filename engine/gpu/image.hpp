@@ -17,7 +17,7 @@ public:
 
     /// Grows the image to at least this size along both sides. Growing discards content and handles
     /// and must not happen while the device uses the image. Returns true if the image was replaced.
-    /// Throws StatusException; the image is then empty.
+    /// Throws StatusException; after any exception there is no image.
     bool reserve(VkExtent2D extent);
 
     [[nodiscard]] VkImage handle() const { return image_.get(); }

@@ -14,6 +14,9 @@ struct MemoryBlock {
         std::uint64_t size;
     };
 
+    /// With memory for its first piece, so that no new block stays without one.
+    MemoryBlock() { pieces.reserve(1); }
+
     Owned<VkDeviceMemory> own;
     std::optional<HostMemory> given;  // instead, where the host has an allocator
     VkDeviceMemory memory = VK_NULL_HANDLE;

@@ -87,8 +87,8 @@ SimplifiedShapes::Entry& SimplifiedShapes::find_or_add(const Key& key) {
         clear();
     }
     if (place == free_slot) {
-        place = static_cast<std::uint32_t>(entries_.size());
-        entries_.push_back({key, {}, 0});
+        entries_.push_back({key, {}, 0});  // first: memory may run out
+        place = static_cast<std::uint32_t>(entries_.size() - 1);
     }
     return entries_[place];
 }

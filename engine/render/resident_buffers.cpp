@@ -82,11 +82,13 @@ void ResidentBuffers::reserve_images() {
         const VkExtent2D extent{field.width, field.height};
         // Of a field without features, an image that nothing is written to.
         const VkExtent2D of_features = field.has_features ? extent : VkExtent2D{1, 1};
-        const bool grown = field.target.signed_distance.image == VK_NULL_HANDLE &&
-                           images_[i].signed_distance.reserve(extent);
-        if ((field.target.feature.image == VK_NULL_HANDLE &&
-             images_[i].feature.reserve(of_features)) ||
-            grown) {
+        // One after the other: where the second is refused, the first is another one already.
+        if (field.target.signed_distance.image == VK_NULL_HANDLE &&
+            images_[i].signed_distance.reserve(extent)) {
+            revision_ = next_revision();
+        }
+        if (field.target.feature.image == VK_NULL_HANDLE &&
+            images_[i].feature.reserve(of_features)) {
             revision_ = next_revision();
         }
     }
@@ -104,42 +106,37 @@ void ResidentBuffers::find_views() {
     }
 }
 
-bool ResidentBuffers::grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
+void ResidentBuffers::grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
                            std::uint64_t blocks) {
-    const bool is_new = i == places.size();
-    if (is_new) {
+    if (i == places.size()) {
         places.emplace_back();
+        are_laid_out_ = false;
     }
     Place& place = places[i];
-    const bool fits = records <= place.record_bytes && blocks <= place.block_bytes;
-    if (!fits) {
+    if (records > place.record_bytes || blocks > place.block_bytes) {
         // Half as much again: the number of points varies from frame to frame.
         place.record_bytes = std::max(place.record_bytes, records + records / 2);
         place.block_bytes = std::max(place.block_bytes, blocks + blocks / 2);
+        are_laid_out_ = false;
     }
-    return is_new || !fits;
 }
 
 void ResidentBuffers::lay_out_buffer() {
-    bool moves = false;
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
-        moves = grow(field_places_, i, 0, 0) || moves;
+        grow(field_places_, i, 0, 0);
     }
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
         const plan::RecordsOutput& records = resident_->records[i];
         require_range(*device_, bytes_of_records(records), "the records");
-        moves = grow(places_, i, own_bytes(records, bytes_of_records(records)),
-                     bytes_of_blocks(records)) ||
-                moves;
+        grow(places_, i, own_bytes(records, bytes_of_records(records)), bytes_of_blocks(records));
     }
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
         const plan::SamplesOutput& samples = resident_->samples[i];
         require_range(*device_, bytes_of_samples(samples), "the samples that stay");
-        moves = grow(sample_places_, i, own_bytes(samples, bytes_of_samples(samples)),
-                     bytes_of_blocks(samples)) ||
-                moves;
+        grow(sample_places_, i, own_bytes(samples, bytes_of_samples(samples)),
+             bytes_of_blocks(samples));
     }
-    if (moves) {
+    if (!are_laid_out_) {
         move_places();
     }
 }
@@ -161,6 +158,7 @@ void ResidentBuffers::move_places() {
     }
     records_.reserve(end);
     revision_ = next_revision();
+    are_laid_out_ = true;
 }
 
 void ResidentBuffers::upload_tables() {

@@ -87,9 +87,9 @@ private:
     [[nodiscard]] BufferPart range_of(std::size_t i, const plan::SamplesOutput& samples) const;
     void lay_out_buffer();
     void move_places();
-    /// Notes how much an output takes; returns whether its place is too small.
-    static bool grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
-                     std::uint64_t blocks);
+    /// Makes the place of an output as large as it has to be.
+    void grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
+              std::uint64_t blocks);
     void bind_headers();
     [[nodiscard]] ResidentHeader header_at(const Place& place) const {
         return {records_.handle(), place.header};
@@ -121,6 +121,7 @@ private:
     std::vector<Place> field_places_;
     std::vector<Place> places_;                    // by records
     std::vector<Place> sample_places_;             // by samples
+    bool are_laid_out_ = false;                    // all places, and there is memory for them
     std::uint64_t revision_ = 0;                   // see ResidentSlot
     std::vector<std::uint32_t> details_;           // by run of points
     std::vector<plan::ExportHeaderPush> headers_;  // of fields, records, samples

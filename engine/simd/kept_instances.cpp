@@ -62,8 +62,9 @@ void TransformedInstances::begin_batch() {
         const bool may_stay = entry.own ? entry.is_placed : keeps_small && entry.first != nowhere;
         entry.is_kept = may_stay && can_be_found(entry);
         if (entry.own && !entry.is_kept) {
-            entry.own->clear();
-            spare_.push_back(std::move(entry.own));
+            spare_.push_back(std::move(entry.own));  // first: memory may run out
+            spare_.back()->clear();
+            entry.first = nowhere;
         }
     }
     const auto is_forgotten = [](const Entry& entry) { return !entry.is_kept; };

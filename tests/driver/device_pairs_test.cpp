@@ -35,7 +35,7 @@ public:
     explicit PairsOfDevice(Way way)
         : DeviceWorld(way == Way::in_parts ? 1U << 21U : 1U << 30U),
           way_(way),
-          table_(PenetrationQuery{.tolerance = 0.05}) {
+          table_(PenetrationQuery{.tolerance = 0.05, .resident = are_resident()}) {
         driver().let_shaders_find(
             {passes::ComputeLayout::output, pairs_found, word_of_pairs, true});
         poses_.buffer = driver().make_buffer();
@@ -67,9 +67,22 @@ public:
     void expect_to_work() override {
         DeviceWorld::expect_to_work();
         EXPECT_EQ(table_.candidates(), pairs_found);
+        const Expected<ResidentPairs> resident = table_.resident();
+        ASSERT_EQ(resident.has_value(), are_resident());
+        if (!are_resident()) {
+            return;
+        }
+        for (const ResidentArray& array : {resident->pairs, resident->records}) {
+            EXPECT_TRUE(driver().has_memory(array.buffer, 0, array.size));
+            EXPECT_TRUE(driver().has_memory(array.header.buffer, array.header.offset,
+                                            sizeof(ResidentHeaderData)));
+        }
     }
 
 private:
+    [[nodiscard]] bool are_resident() const {
+        return way_ == Way::on_device || way_ == Way::recorded;
+    }
     void enlarge() override { add(100, 5000); }
     void forget() override { table_ = DevicePairTable(PenetrationQuery{}); }
     /// A frame of the host.

@@ -197,6 +197,8 @@ bool try_mistake(Technique technique, const Mistake& mistake, World::Step step, 
         EXPECT_NE(status.message().find(words), std::string::npos) << status.text();
     }
     if (hosted.world.has_context()) {
+        const Status again = hosted.world.take(step);
+        EXPECT_TRUE(again.ok()) << again.text();
         std::vector<double> numbers;
         const Status next = hosted.world.answer(numbers);
         EXPECT_TRUE(next.ok()) << next.text();

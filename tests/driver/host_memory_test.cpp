@@ -46,6 +46,7 @@ void try_without_memory(Technique technique, World::Step step, std::uint64_t suc
     }
     // Sorting falls back to a method without the memory that it requests.
     const bool has_failed = FailingAllocations::has_failed();
+    const bool has_started = status.ok();
     if (has_failed && status.ok() && is_submission(step)) {
         status = world.take(World::Step::collect_first);  // which reports errors after submission
     }
@@ -58,6 +59,10 @@ void try_without_memory(Technique technique, World::Step step, std::uint64_t suc
     }
     if (anew || step == World::Step::add_shapes) {
         EXPECT_TRUE(world.take(World::Step::add_shapes).ok());
+    }
+    if (World::starts_a_batch(step) && !has_started) {
+        const Status again = world.take(step);
+        EXPECT_TRUE(again.ok()) << again.text();
     }
     std::vector<double> numbers;
     const Status next = world.answer(numbers);
@@ -81,6 +86,32 @@ TEST(HostMemory, ThatRunsOutIsSaidAndLeavesAContextThatAnswers) {
                 }
             }
         }
+    }
+}
+
+TEST(HostMemory, ThatRunsOutDoesNotSpoilWhatIsKeptForTheNextPairs) {
+    const std::vector<Ring> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    bool has_failed = true;
+    for (std::uint64_t successes = 0; has_failed; ++successes) {
+        SCOPED_TRACE(::testing::Message() << "memory for " << successes << " allocations");
+        Expected<Context> context = Context::create_cpu();
+        ASSERT_TRUE(context.has_value()) << context.error().text();
+        const Expected<ShapeHandle> shape = context->add_shape(square);
+        ASSERT_TRUE(shape.has_value()) << shape.error().text();
+        std::vector<Instance> row;
+        for (int i = 0; i < 10; ++i) {
+            row.push_back({*shape, {{0.75 * i, 0.0}}});
+        }
+        StatusCode code = StatusCode::ok;
+        {
+            const FailingAllocations scarce(successes);
+            code = context->find_pairs(row, 0.0).error().code();
+            has_failed = FailingAllocations::has_failed();
+        }
+        EXPECT_EQ(code, has_failed ? StatusCode::out_of_memory : StatusCode::ok);
+        const auto pairs = context->find_pairs(row, 0.0);
+        ASSERT_TRUE(pairs.has_value()) << pairs.error().text();
+        EXPECT_EQ(pairs->size(), 9U);
     }
 }
 

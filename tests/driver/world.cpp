@@ -26,6 +26,16 @@ Batch unwatched(const Make& make) {
     return make();
 }
 
+std::vector<const void*> handles_of(const ResidentField& field) {
+    return {field.signed_distance.image, field.signed_distance.view, field.feature.image,
+            field.feature.view, field.header.buffer};
+}
+
+template <class Resident>
+std::vector<const void*> handles_of(const Resident& resident) {
+    return {resident.buffer, resident.header.buffer};
+}
+
 /// The first error among the queries of a batch.
 Status first_error(const Results& results) {
     for (const AnyResult& any : results.results) {
@@ -79,6 +89,21 @@ Status World::take(Step step) {
 
 World::~World() {
     leave();
+}
+
+bool World::starts_a_batch(Step step) {
+    switch (step) {
+        case Step::submit_first:
+        case Step::submit_larger:
+        case Step::record:
+        case Step::record_in_vain:
+        case Step::submit_without_work:
+        case Step::submit_last:
+        case Step::record_last:
+            return true;
+        default:
+            return false;
+    }
 }
 
 void World::leave() {
@@ -150,17 +175,45 @@ Status World::record() {
     return look_at_residents();
 }
 
+bool World::is_usable(const ResidentField& field) const {
+    const auto can_be_read = [this](const ResidentImage& image) {
+        return driver_.has_memory(image.image, image.view);
+    };
+    return can_be_read(field.signed_distance) && can_be_read(field.feature) &&
+           driver_.has_memory(field.header.buffer, field.header.offset, sizeof(ResidentHeaderData));
+}
+
+template <class Resident>
+bool World::is_usable(const Resident& resident) const {
+    return driver_.has_memory(resident.buffer, resident.offset, resident.size) &&
+           driver_.has_memory(resident.header.buffer, resident.header.offset,
+                              sizeof(ResidentHeaderData));
+}
+
+template <class Query>
+Status World::look_at_resident(QueryHandle<Query> handle) {
+    const auto resident = context_->resident(ticket_, handle);
+    if (!resident.has_value()) {
+        return resident.error();
+    }
+    const test_support::UnwatchedAllocations here;
+    if (!is_usable(*resident)) {
+        return {StatusCode::device_error, "a result that stays has no memory"};
+    }
+    NamedBefore now{resident->slot.revision, handles_of(*resident)};
+    NamedBefore& before = named_before_[{resident->slot.index, handle.index}];
+    if (now.revision == before.revision && now.handles != before.handles) {
+        return {StatusCode::device_error, "a result that stays has moved without a new revision"};
+    }
+    before = std::move(now);
+    return {};
+}
+
 Status World::look_at_residents() {
-    if (Status status = context_->resident(ticket_, resident_penetration).error(); !status.ok()) {
-        return status;
-    }
-    if (Status status = context_->resident(ticket_, resident_contacts).error(); !status.ok()) {
-        return status;
-    }
-    if (Status status = context_->resident(ticket_, resident_samples).error(); !status.ok()) {
-        return status;
-    }
-    return context_->resident(ticket_, resident_field).error();
+    Status status = look_at_resident(resident_penetration);
+    status = status.ok() ? look_at_resident(resident_contacts) : status;
+    status = status.ok() ? look_at_resident(resident_field) : status;
+    return status.ok() ? look_at_resident(resident_samples) : status;
 }
 
 Status World::collect() {

@@ -4,9 +4,12 @@
 
 #include <tests/support/mock_driver.hpp>
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nearfield::test {
@@ -77,6 +80,9 @@ public:
     /// Answers the larger batch (after add_shapes) and the first one without the driver, and
     /// returns the results as numbers. An error of any query counts.
     Status answer(std::vector<double>& numbers);
+    /// Whether the step starts a batch: of one that fails nothing remains, so it can be taken
+    /// again.
+    [[nodiscard]] static bool starts_a_batch(Step step);
     /// The result of answer() without failures.
     [[nodiscard]] static std::vector<double> undisturbed(Technique technique);
 
@@ -104,13 +110,24 @@ private:
     Status collect();
     /// The host has completed its frame.
     Status collect_recorded(bool executed);
-    /// Requests all resident outputs of the batch in flight.
+    /// Requests all resident outputs of the batch in flight. An error if what they name does not
+    /// exist, or is not what it was although its revision is the same.
     Status look_at_residents();
+    template <class Query>
+    Status look_at_resident(QueryHandle<Query> handle);
+    [[nodiscard]] bool is_usable(const ResidentField& field) const;
+    template <class Resident>
+    [[nodiscard]] bool is_usable(const Resident& resident) const;
     /// One query of each kind that a technique answers, with this many cells per unit.
     [[nodiscard]] Batch batch(double cells, Technique technique) const;
     void add_recordable(Batch& batch, double cells, Technique technique) const;
     [[nodiscard]] Instance here() const { return {a_, {}}; }
     [[nodiscard]] Instance there() const { return {b_, {{1.2, 0.4}, 0.3}}; }
+
+    struct NamedBefore {
+        std::uint64_t revision = 0;
+        std::vector<const void*> handles;
+    };
 
     Technique technique_;
     test_support::MockDriver driver_;
@@ -121,6 +138,8 @@ private:
     std::optional<Context> context_;
     ShapeHandle a_;
     ShapeHandle b_;
+    /// What an output of a slot named last, by the slot and the number of the query.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, NamedBefore> named_before_;
     Ticket ticket_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  // for the host's frame
     std::uint64_t frame_ = 0;

@@ -130,6 +130,26 @@ VkBuffer MockDriver::make_buffer() {
     return buffer;
 }
 
+/// Objects of the host have memory that the driver does not see.
+bool MockDriver::has_memory(std::uint64_t object) const {
+    const auto found = state_->objects.find(object);
+    if (found == state_->objects.end() || !found->second.bound) {
+        return false;
+    }
+    const auto memory = found->second.needs.find(0);
+    return memory == found->second.needs.end() || state_->objects.contains(memory->second);
+}
+
+bool MockDriver::has_memory(VkBuffer buffer, std::uint64_t offset, std::uint64_t bytes) const {
+    return has_memory(number(buffer)) && offset + bytes <= state_->objects.at(number(buffer)).bytes;
+}
+
+bool MockDriver::has_memory(VkImage image, VkImageView view) const {
+    const auto found = state_->objects.find(number(view));
+    return has_memory(number(image)) && found != state_->objects.end() &&
+           found->second.needs.at(0) == number(image);
+}
+
 bool MockDriver::is_signalled(VkSemaphore semaphore) const {
     return state_->objects.at(number(semaphore)).signalled;
 }

@@ -65,6 +65,10 @@ public:
     void enable_timeline_semaphores(bool enabled = true);
     [[nodiscard]] VkSemaphore make_timeline_semaphore(std::uint64_t value);
     [[nodiscard]] std::uint64_t value_of(VkSemaphore semaphore) const;
+    /// Whether a host may use this part of a buffer: both exist, and the memory behind them.
+    [[nodiscard]] bool has_memory(VkBuffer buffer, std::uint64_t offset, std::uint64_t bytes) const;
+    /// The same of an image, of which `view` is a view.
+    [[nodiscard]] bool has_memory(VkImage image, VkImageView view) const;
     /// A command buffer in the recording state.
     [[nodiscard]] VkCommandBuffer begin_commands();
     /// Ends and submits the command buffer.
@@ -128,6 +132,8 @@ public:
     struct State;
 
 private:
+    [[nodiscard]] bool has_memory(std::uint64_t object) const;
+
     std::unique_ptr<State> state_;
 };
 
