@@ -17,7 +17,7 @@ Names both(Names names, const Names& more) {
 
 /// The options of each kind, without the options common to all kinds.
 const std::map<std::string, Names>& own_options() {
-    static const Names sampled{"--boxes", "--height", "--costs", "--memory-limit", "--tiles"};
+    static const Names sampled{"--boxes", "--height", "--memory-limit", "--tiles"};
     static const std::map<std::string, Names> options{
         {"penetration", both(sampled, Names{"--points"})},
         {"contacts", both(sampled, Names{"--contact-distance", "--normals"})},
@@ -123,14 +123,13 @@ protected:
 
 TEST_F(Help, NamesCommandsAndTheirOptions) {
     expect_names({},
-                 {"query", "scene", "bench", "simulate", "calibrate", "hash", "info", "--version"});
+                 {"query", "scene", "bench", "simulate", "hash", "info", "--version"});
     expect_names({"scene"},
                  {"groups", "nearest", "--technique", "--memory-limit", "--threads", "--json"});
     expect_names({"bench"},
                  {"--scene", "--technique", "--frames", "--warmup", "--keep", "--gpu", "--json"});
     expect_names({"simulate"},
                  {"nest", "robots", "--response", "--frames", "--bodies", "--every", "--video"});
-    expect_names({"calibrate"}, {"file"});
     expect_names({"info"}, {"devices"});
     EXPECT_EQ(run_program({"--version"}).out.rfind("nearfield ", 0), 0U);
 }

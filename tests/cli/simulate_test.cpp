@@ -116,7 +116,6 @@ TEST_F(Simulate, RefusesWhatDoesNotApplyToClearances) {
                                                               {"--tolerance", "0.1"},
                                                               {"--boxes", "oriented"},
                                                               {"--height", "3"},
-                                                              {"--costs", "costs.json"},
                                                               {"--memory-limit", "64"},
                                                               {"--technique", "raster"}}) {
             expect_refused(simulate + Arguments{option, value},

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <tools/cli/bench.hpp>
-#include <tools/cli/calibrate.hpp>
 #include <tools/cli/hash.hpp>
 #include <tools/cli/help_formatter.hpp>
 #include <tools/cli/info.hpp>
@@ -46,13 +45,11 @@ int run(int count, char** arguments) {
     tools::QueryArguments query_arguments;
     tools::SceneArguments scene_arguments;
     tools::BenchArguments bench_arguments;
-    tools::CalibrateArguments calibrate_arguments;
     tools::SimulateArguments simulate_arguments;
     tools::HashArguments hash_arguments;
     const CLI::App* const query = tools::add_query_command(program, query_arguments);
     const CLI::App* const scene = tools::add_scene_command(program, scene_arguments);
     const CLI::App* const bench = tools::add_bench_command(program, bench_arguments);
-    const CLI::App* const calibrate = tools::add_calibrate_command(program, calibrate_arguments);
     const CLI::App* const simulate = tools::add_simulate_command(program, simulate_arguments);
     const CLI::App* const hash = tools::add_hash_command(program, hash_arguments);
     tools::add_info_command(program);
@@ -67,8 +64,7 @@ int run(int count, char** arguments) {
         }
         if (count > 1 && arguments[1][0] != '-' && program.get_subcommands().empty()) {
             throw tools::InputError(std::string("\"") + arguments[1] +
-                                    "\" is none of query, scene, simulate, bench, calibrate, hash, "
-                                    "info");
+                                    "\" is none of query, scene, simulate, bench, hash, info");
         }
         if (query->parsed()) {
             tools::explain_refusal(*query);
@@ -79,13 +75,12 @@ int run(int count, char** arguments) {
         command(its_arguments);
         return exit_status::done;
     };
-    return query->parsed()       ? tools::run_query(query_arguments)
-           : scene->parsed()     ? tools::run_scene(scene_arguments)
-           : simulate->parsed()  ? tools::run_simulate(simulate_arguments)
-           : bench->parsed()     ? done(tools::run_bench, bench_arguments)
-           : calibrate->parsed() ? done(tools::run_calibrate, calibrate_arguments)
-           : hash->parsed()      ? done(tools::run_hash, hash_arguments)
-                                 : tools::run_info();
+    return query->parsed()      ? tools::run_query(query_arguments)
+           : scene->parsed()    ? tools::run_scene(scene_arguments)
+           : simulate->parsed() ? tools::run_simulate(simulate_arguments)
+           : bench->parsed()    ? done(tools::run_bench, bench_arguments)
+           : hash->parsed()     ? done(tools::run_hash, hash_arguments)
+                                : tools::run_info();
 }
 
 }  // namespace

@@ -218,8 +218,8 @@ void add_technique_options(CLI::App& kind, QueryArguments& arguments, QueryType 
     kind.option_defaults()->group("Technique");
     add_parsed_option(kind, "--technique", arguments.technique, parse_technique,
                       is_sampled(type)
-                          ? "raster, compute, cpu or automatic; default automatic: whichever is "
-                            "quickest here, by what --costs says"
+                          ? "raster, compute, cpu or automatic; default automatic: cpu, and on a "
+                            "GPU compute for large fields"
                           : "cpu or automatic, which are the same here: the CPU alone answers; "
                             "default automatic")
         ->type_name("NAME");
@@ -301,7 +301,7 @@ void add_kind(CLI::App& query, QueryArguments& arguments, const QueryKind& descr
         hide_options(kind, {"--strategy"});
     }
     if (!is_sampled(type)) {
-        hide_options(kind, {"--boxes", "--height", "--costs", "--memory-limit", "--tiles"});
+        hide_options(kind, {"--boxes", "--height", "--memory-limit", "--tiles"});
     }
 }
 

@@ -1,6 +1,5 @@
 #include <tools/cli/settings_options.hpp>
 #include <tools/common/parsed_option.hpp>
-#include <tools/io/cost_model.hpp>
 #include <tools/io/input_error.hpp>
 
 namespace nearfield::tools {
@@ -14,11 +13,6 @@ void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
                      "Maximum height of their hierarchies: more is more work on the CPU and less "
                      "on the device; default 12")
         ->type_name("LEVELS");
-    command
-        .add_option("--costs", arguments.costs,
-                    "What the techniques cost here, as nearfield calibrate has measured it: what "
-                    "the technique automatic goes by; default what is usual for such a device")
-        ->type_name("FILE.json");
     add_count_option(command, "--memory-limit", arguments.memory_limit, {1, 1U << 20U},
                      "Limit for the images and results of a batch, host and device together, "
                      "MiB; default 1024")
@@ -41,9 +35,6 @@ Settings parse_settings(const SettingsArguments& arguments) {
         throw InputError("--boxes: \"" + *arguments.boxes + "\" is none of axis-aligned, oriented");
     }
     settings.hierarchy_height = arguments.height.value_or(settings.hierarchy_height);
-    if (arguments.costs) {
-        settings.costs = read_cost_model(*arguments.costs);
-    }
     if (arguments.memory_limit) {
         settings.memory_limit = std::uint64_t{*arguments.memory_limit} << 20U;
     }

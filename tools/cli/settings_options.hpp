@@ -16,12 +16,11 @@ namespace nearfield::tools {
 struct SettingsArguments {
     std::optional<std::string> boxes;
     std::optional<std::uint32_t> height;
-    std::optional<std::string> costs;
     std::optional<std::uint32_t> memory_limit;  ///< MiB
     std::shared_ptr<ThreadTeam> threads;        // null for one
 };
 
-/// Adds the options --boxes, --height, --costs, --memory-limit and --threads; parsing fills
+/// Adds the options --boxes, --height, --memory-limit and --threads; parsing fills
 /// `arguments`, which must outlive it.
 void add_settings_options(CLI::App& command, SettingsArguments& arguments);
 

@@ -31,7 +31,6 @@ void refuse_what_does_not_apply(const SimulateArguments& arguments) {
     refuse(arguments.field, "--field");
     refuse(arguments.settings.boxes.has_value(), "--boxes");
     refuse(arguments.settings.height.has_value(), "--height");
-    refuse(arguments.settings.costs.has_value(), "--costs");
     refuse(arguments.settings.memory_limit.has_value(), "--memory-limit");
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
     refuse(technique && technique != Technique::cpu && technique != Technique::automatic,
