@@ -9,9 +9,10 @@
 
 namespace nearfield::batch {
 
-BatchRing::BatchRing(std::uint32_t frames, const plan::PlanLimits& limits, const CostModel& costs,
-                     const JobSystem& jobs, render::Renderer* renderer, ShapeStore& shapes)
-    : shapes_(&shapes), planning_(limits, costs, jobs), normals_(planning_, renderer) {
+BatchRing::BatchRing(std::uint32_t frames, const plan::PlanLimits& limits,
+                     const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs,
+                     render::Renderer* renderer, ShapeStore& shapes)
+    : shapes_(&shapes), planning_(limits, thresholds, jobs), normals_(planning_, renderer) {
     for (std::uint32_t i = 0; i < frames; ++i) {
         frames_.push_back(std::make_unique<Frame>(Frame{BatchRunner(planning_, renderer), {}, i}));
     }

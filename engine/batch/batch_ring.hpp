@@ -18,8 +18,9 @@ namespace nearfield::batch {
 /// it was submitted with until it is collected.
 class BatchRing {
 public:
-    BatchRing(std::uint32_t frames, const plan::PlanLimits& limits, const CostModel& costs,
-              const JobSystem& jobs, render::Renderer* renderer, ShapeStore& shapes);
+    BatchRing(std::uint32_t frames, const plan::PlanLimits& limits,
+              const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs,
+              render::Renderer* renderer, ShapeStore& shapes);
 
     /// Throws StatusException (ring_full) if the ring is full. After any StatusException nothing of
     /// the batch remains.

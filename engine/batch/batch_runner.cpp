@@ -1,7 +1,6 @@
 #include <engine/base/catch_to_status.hpp>
 #include <engine/base/interruption.hpp>
 #include <engine/batch/batch_runner.hpp>
-#include <engine/plan/technique.hpp>
 
 #include <algorithm>
 #include <string>
@@ -53,26 +52,13 @@ void BatchRunner::make_tile_batches() {
     const auto tile_batches = std::span(tile_batches_).first(plan_.tile_batches);
     // Shapes of earlier batches, or what they left as they grew, must not take up the room.
     if (std::any_of(tile_batches.begin(), tile_batches.end(), [this](const auto& tile_batch) {
-            return tile_batch.compute.shape_bytes() > planning_->largest_range;
+            return tile_batch.compute.shape_bytes() > planning_->rule.largest_range;
         })) {
         planning_->builder.forget_shapes();
         build_tile_batches();
     }
-    search_count_ = planning_->searches.build(plan_, planning_->largest_range, searches_);
+    search_count_ = planning_->searches.build(plan_, planning_->rule.largest_range, searches_);
     resident_outputs_builder_.build(plan_, tile_batches, results_.results, resident_);
-}
-
-/// Moves queries to the CPU that cannot be recorded as they are, if they allow it.
-void BatchRunner::keep_off_the_device() {
-    for (AnyQuery& query : queries_) {
-        std::visit(
-            [](auto& one) {
-                if (one.technique == Technique::automatic && plan::takes_a_second_submission(one)) {
-                    one.technique = Technique::cpu;
-                }
-            },
-            query);
-    }
 }
 
 /// Plans the batch and makes what the device needs. If the call ends before, nothing is left to do.
@@ -80,7 +66,7 @@ void BatchRunner::plan_batch(plan::Submissions submissions) {
     std::vector<AnyResult>& results = results_.results;
     expect_answers(queries_.size());
     try {
-        planning_->selector.choose(queries_, shapes_);
+        choose_techniques(queries_, shapes_, planning_->rule);
         planning_->planner.plan(queries_, shapes_, plan_, results, submissions);
         decoder_.begin_batch(plan_);
         make_tile_batches();
@@ -103,9 +89,6 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     Timings& timings = results_.timings;
     begin_timings(queries.size());
     queries_.assign(queries.begin(), queries.end());
-    if (submissions == plan::Submissions::one) {
-        keep_off_the_device();
-    }
     plan::find_shapes(queries_, find_shape, shapes_);
     plan_batch(submissions);
     timings.plan += laps.next() - timings.localize;

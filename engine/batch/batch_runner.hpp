@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/base/stopwatch.hpp>
+#include <engine/batch/technique_choice.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/point_search.hpp>
 #include <engine/plan/resident_outputs.hpp>
@@ -9,7 +10,6 @@
 #include <engine/resident/resident_outputs_builder.hpp>
 #include <engine/results/answer_jobs.hpp>
 #include <engine/results/results.hpp>
-#include <engine/select/technique_selector.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -24,19 +24,18 @@ namespace nearfield::batch {
 /// Turns queries into tile batches, and writes answers. Its scratch memory serves one batch after
 /// the other: none of it is needed once a batch is submitted or its answers are written.
 struct Planning {
-    select::TechniqueSelector selector;
+    TechniqueRule rule;
     plan::Planner planner;
     plan::TileBatchBuilder builder;
     plan::PointSearchBuilder searches;
     results::AnswerJobs answers;
-    std::uint64_t largest_range;  // see plan::PlanLimits
 
-    Planning(const plan::PlanLimits& limits, const CostModel& costs, const JobSystem& jobs)
-        : selector(costs, limits.techniques, limits.largest_range),
+    Planning(const plan::PlanLimits& limits, const std::optional<DeviceThresholds>& thresholds,
+             const JobSystem& jobs)
+        : rule{limits.techniques, limits.largest_range, thresholds},
           planner(limits),
           builder(limits.subpixel),
-          answers(jobs),
-          largest_range(limits.largest_range) {}
+          answers(jobs) {}
 };
 
 /// Runs one batch from queries to results, in two steps: everything up to its submission, and the
@@ -51,7 +50,7 @@ public:
     /// Whether the next batches state the time of each query.
     void time_queries(bool on) { times_queries_ = on; }
 
-    /// Copies the queries, selects their techniques, plans them and submits their tile batches with
+    /// Copies the queries, chooses their techniques, plans them and submits their tile batches with
     /// the semaphores of `order`; if nothing is rendered, only the semaphores, if any. Then answers
     /// the CPU's queries while the device is working; errors there are reported by collect(). Does
     /// not wait, except for a batch that an exception left on the device. `laps`: begun with the
@@ -109,7 +108,6 @@ public:
 private:
     void begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                plan::Submissions submissions, Laps& laps);
-    void keep_off_the_device();
     [[nodiscard]] bool has_device_work() const;
     void answer_on_cpu(Laps& laps);
     void begin_timings(std::size_t queries);

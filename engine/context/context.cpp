@@ -193,10 +193,6 @@ void Context::trim() noexcept {
     implementation_->trim();
 }
 
-const CostModel& Context::costs() const noexcept {
-    return implementation_->costs();
-}
-
 const std::string& Context::device_name() const noexcept {
     static const std::string none;
     const gpu::Device* const device = implementation_->device();

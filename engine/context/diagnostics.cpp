@@ -1,4 +1,3 @@
-#include <engine/context/calibration.hpp>
 #include <engine/context/implementation.hpp>
 #include <nearfield/diagnostics.hpp>
 
@@ -11,14 +10,6 @@ struct ContextAccess {
         return *context.implementation_;
     }
 };
-
-Expected<CostModel> measure_costs(Context& context, const std::function<void(double)>& progress) {
-    auto& implementation = ContextAccess::implementation(context);
-    CostModel costs;
-    Status status = implementation.unless_lost(
-        [&] { costs = calibrate(context, implementation.techniques(), progress); });
-    return status.ok() ? Expected<CostModel>(costs) : status;
-}
 
 Expected<std::string> describe_graph(const Context& context, GraphFormat format) {
     std::string text;

@@ -3,7 +3,6 @@
 #include <engine/context/read_structures.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/plan/check_query.hpp>
-#include <engine/select/default_costs.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -44,10 +43,9 @@ plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings
     return limits;
 }
 
-CostModel costs_of(const gpu::Device* device, const Settings& settings) {
-    return settings.costs.value_or(default_costs(device == nullptr || device->is_software()
-                                                     ? select::DeviceClass::software
-                                                     : select::DeviceClass::hardware));
+std::optional<DeviceThresholds> thresholds_of(const gpu::Device* device, const Settings& settings) {
+    return device == nullptr || device->is_software() ? std::nullopt
+                                                      : std::optional(settings.device_thresholds);
 }
 
 Settings without_device(Settings settings) {
@@ -74,14 +72,13 @@ Status lost_device() {
 }  // namespace
 
 Context::Implementation::Machinery::Machinery(const gpu::Device* device, const Settings& settings,
-                                              const CostModel& costs, batch::ShapeStore& shapes)
+                                              batch::ShapeStore& shapes)
     : renderer(device == nullptr ? nullptr : std::make_unique<render::Renderer>(*device, settings)),
-      ring(settings.batches_in_flight, plan_limits(device, settings, shapes.context()), costs,
-           settings.jobs, renderer.get(), shapes) {}
+      ring(settings.batches_in_flight, plan_limits(device, settings, shapes.context()),
+           thresholds_of(device, settings), settings.jobs, renderer.get(), shapes) {}
 
 Context::Implementation::Implementation(const Settings& settings)
     : settings_(without_device(settings)),
-      costs_(costs_of(nullptr, settings)),
       machinery_(make_machinery()),
       lost_device_(lost_device()) {}
 
@@ -90,7 +87,6 @@ Context::Implementation::Implementation(std::unique_ptr<gpu::HeadlessDevice> own
     : own_device_(std::move(own)),
       device_(std::make_unique<gpu::Device>(host)),
       settings_(on_device(settings, *device_)),
-      costs_(costs_of(device_.get(), settings)),
       machinery_(make_machinery()),
       lost_device_(lost_device()) {
     device_->log(LogLevel::information, [&] {
@@ -125,7 +121,7 @@ void Context::Implementation::report_open_frames() const noexcept {
 }
 
 std::unique_ptr<Context::Implementation::Machinery> Context::Implementation::make_machinery() {
-    return std::make_unique<Machinery>(device_.get(), settings_, costs_, shapes_);
+    return std::make_unique<Machinery>(device_.get(), settings_, shapes_);
 }
 
 Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(

@@ -28,8 +28,7 @@ namespace nearfield {
 class Context::Implementation {
     /// Everything made from pipelines, and the memory they work on.
     struct Machinery {
-        Machinery(const gpu::Device* device, const Settings& settings, const CostModel& costs,
-                  batch::ShapeStore& shapes);
+        Machinery(const gpu::Device* device, const Settings& settings, batch::ShapeStore& shapes);
 
         std::unique_ptr<render::Renderer> renderer;  // null without a device
         batch::BatchRing ring;
@@ -96,7 +95,6 @@ public:
     }
     /// Null without a device, as the renderer is.
     [[nodiscard]] const gpu::Device* device() const { return device_.get(); }
-    [[nodiscard]] const CostModel& costs() const { return costs_; }
     [[nodiscard]] const JobSystem& jobs() const { return settings_.jobs; }
     [[nodiscard]] const DeviceTechniques& techniques() const { return settings_.techniques; }
     [[nodiscard]] std::uint64_t memory_limit() const { return settings_.memory_limit; }
@@ -132,7 +130,6 @@ private:
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
     std::unique_ptr<gpu::Device> device_;              // null in a context without one
     const Settings settings_;
-    CostModel costs_;
     batch::ShapeStore shapes_;
     geometry::GatheredRings gathered_rings_;
     localize::BroadPhase broad_phase_;

@@ -1,9 +1,7 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/base/versioned.hpp>
 #include <engine/context/read_structures.hpp>
-#include <engine/geometry/number.hpp>
 
-#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -12,48 +10,6 @@ namespace {
 
 [[noreturn]] void refuse_setting(const std::string& message) {
     throw StatusException({StatusCode::invalid_settings, message});
-}
-
-void check_cost(double microseconds, const std::string& what) {
-    if (!(microseconds >= 0.0 && std::isfinite(microseconds))) {
-        refuse_setting("Settings::costs." + what + " is " + geometry::number(microseconds) +
-                       "; it must be a finite number of at least 0 (microseconds)");
-    }
-}
-
-void check_cost(const WorkCost& cost, const std::string& what) {
-    check_cost(cost.query, what + ".query");
-    check_cost(cost.edge, what + ".edge");
-    check_cost(cost.sample, what + ".sample");
-    check_cost(cost.search, what + ".search");
-    check_cost(cost.shape, what + ".shape");
-}
-
-void check_costs(const QueryCosts& costs, const std::string& what) {
-    check_cost(costs.points, what + ".points");
-    check_cost(costs.closest, what + ".closest");
-    check_cost(costs.intersection, what + ".intersection");
-    check_cost(costs.field, what + ".field");
-    check_cost(costs.features, what + ".features");
-}
-
-void check_costs(const DeviceCosts& costs, const std::string& technique) {
-    check_cost(costs.submission, technique + ".submission");
-    check_cost(costs.latency, technique + ".latency");
-    check_costs(costs.plan, technique + ".plan");
-    check_costs(costs.device, technique + ".device");
-    check_costs(costs.read, technique + ".read");
-}
-
-void check_costs(const CostModel& costs) {
-    check_costs(costs.raster, "raster");
-    check_costs(costs.compute, "compute");
-    check_costs(costs.cpu.plan, "cpu.plan");
-    check_costs(costs.cpu.answer, "cpu.answer");
-    if (!(costs.overlap >= 0.0 && costs.overlap <= 1.0)) {
-        refuse_setting("Settings::costs.overlap is " + geometry::number(costs.overlap) +
-                       "; it must be at least 0 and at most 1");
-    }
 }
 
 void check_jobs(const JobSystem& jobs) {
@@ -127,7 +83,7 @@ Settings read_versioned(const Settings& given) {
     const Settings settings =
         read_versioned(given, "Settings",
                        {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
-                        offsetof(Settings, costs), offsetof(Settings, jobs),
+                        offsetof(Settings, device_thresholds), offsetof(Settings, jobs),
                         offsetof(Settings, techniques), offsetof(Settings, timestamps)});
     if (settings.batches_in_flight < 1 || settings.batches_in_flight > max_batches_in_flight) {
         refuse_setting("batches_in_flight is " + std::to_string(settings.batches_in_flight) +
@@ -138,9 +94,6 @@ Settings read_versioned(const Settings& given) {
         settings.bounding_volume != BoundingVolume::oriented) {
         refuse_setting("Settings::bounding_volume is no enumerator: " +
                        std::to_string(static_cast<int>(settings.bounding_volume)));
-    }
-    if (settings.costs) {
-        check_costs(*settings.costs);
     }
     check_jobs(settings.jobs);
     return settings;

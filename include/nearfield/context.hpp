@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nearfield/cost.hpp>
 #include <nearfield/export.hpp>
 #include <nearfield/fill.hpp>
 #include <nearfield/host.hpp>
@@ -16,7 +15,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -38,6 +36,20 @@ struct DeviceTechniques {
     bool compute = true;  ///< Technique::compute
 };
 
+/// From how much work of a batch on Technique::automatic is Technique::compute, where the device is
+/// hardware; one that runs on the CPU, such as lavapipe, never answers what the CPU can. 0: always;
+/// UINT64_MAX: never. The defaults are figures of an H100 and an H200 (docs/measurements/gpu.md),
+/// which `nearfield bench --gpu` measures for another device.
+struct DeviceThresholds {
+    /// Penetrations, contacts and intersections, together. An H100 answered 1,934 penetrations as
+    /// quickly as one thread of its CPU, by an older build; an H200 takes less than half of the
+    /// CPU's time for 4,738.
+    std::uint64_t pairs = 2000;
+    /// Cells of distance fields, together; of one without a rectangle at most those of the squares
+    /// around both shapes' circles. For 256 x 256 an H100 takes a third of the CPU's time.
+    std::uint64_t cells = 65536;
+};
+
 /// Limits and settings of a context. Invalid settings are rejected when the context is created,
 /// before any driver call (StatusCode::invalid_settings).
 struct Settings {
@@ -56,10 +68,8 @@ struct Settings {
     std::uint32_t hierarchy_height = 12;
     /// Bounding volumes of these hierarchies; docs/performance.md compares the settings.
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
-    /// Costs by which Technique::automatic selects, as measured by measure_costs() of
-    /// diagnostics.hpp on this machine; every time finite and at least 0. Unset: defaults for the
-    /// class of device, see docs/performance.md.
-    std::optional<CostModel> costs = std::nullopt;
+    /// From how much work on Technique::automatic is compute on a hardware device.
+    DeviceThresholds device_thresholds = {};
     /// Host threads for the queries that the CPU answers. Its function and `user` must stay valid
     /// for the lifetime of the context. Default: everything runs on the calling thread.
     JobSystem jobs = {};
@@ -339,9 +349,6 @@ public:
     ///
     /// Fails with not_ready if a batch that is not yet collected writes to the image.
     Status release_target(VkImage image);
-
-    /// The costs by which Technique::automatic selects in this context.
-    [[nodiscard]] const CostModel& costs() const noexcept;
 
     /// The device's name as reported by its driver; empty without a device.
     [[nodiscard]] const std::string& device_name() const noexcept;

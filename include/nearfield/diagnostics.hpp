@@ -1,7 +1,6 @@
 #pragma once
 
 #include <nearfield/context.hpp>
-#include <nearfield/cost.hpp>
 #include <nearfield/export.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/requirements.hpp>
@@ -9,13 +8,12 @@
 #include <nearfield/tile.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 /// \file
 /// What a program does not need for its answers, but a person to understand and tune it: devices
-/// and what they lack, the render graph, tiles, costs, and the reloading of shaders.
+/// and what they lack, the render graph, tiles, and the reloading of shaders.
 ///
 /// Threads: functions that take a context follow the rules of its own functions (Context).
 
@@ -42,14 +40,6 @@ struct DeviceReport {
 /// Lists the devices of all installed Vulkan drivers, without creating a device on any of them.
 /// Fails only if there is no Vulkan loader or no instance can be created. Thread-safe.
 [[nodiscard]] NEARFIELD_EXPORT Expected<std::vector<DeviceReport>> list_devices();
-
-/// Measures what each technique costs on this machine, by small synthetic workloads. The result is
-/// for Settings::costs of later contexts; nothing changes in this one. Techniques that this context
-/// does not have keep their Context::costs(). Takes seconds, during which the machine should be
-/// otherwise idle. `progress`, if given, is called with the fraction done, up to 1. Fails with
-/// ring_full if no further batch can be in flight, and as Context::run() does.
-[[nodiscard]] NEARFIELD_EXPORT Expected<CostModel> measure_costs(
-    Context& context, const std::function<void(double)>& progress = {});
 
 /// Output format of describe_graph().
 enum class GraphFormat {

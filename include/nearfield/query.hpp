@@ -48,8 +48,11 @@ inline constexpr double max_deviation = 0.25;
 /// may differ within the error bound, near the boundaries. Fields have the same grid, and values
 /// within both error bounds; signs differ only where these allow it, near the boundary.
 enum class Technique {
-    /// Selects, per query, the technique that makes the batch take the least time by the costs on
-    /// this machine (Settings::costs).
+    /// cpu for what it answers, except on hardware devices: there, from so many pairs of a batch or
+    /// cells of its fields on (Settings::device_thresholds), all its queries of that kind of work
+    /// go
+    /// to compute. Left to cpu all the same are contacts with gradient normals and what compute
+    /// might refuse (too_large). For what cpu does not answer, compute where it does, or raster.
     automatic,
     /// The paper's: fields are drawn on the device, and the results refined on the CPU.
     raster,

@@ -4,15 +4,11 @@
 #include <tests/support/mock_driver.hpp>
 
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
 namespace nearfield::test {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Enumeration>
 Enumeration beyond(Enumeration last) {
@@ -112,50 +108,6 @@ TEST_F(BadStructures, HalfAnAllocatorOfDeviceMemory) {
                    "HostDevice::memory.allocate is null, and free is set");
 }
 
-TEST_F(BadStructures, CostsThatAreNoTimes) {
-    for (const double bad : {-1.0, not_a_number, infinity, -infinity}) {
-        const auto expect = [&](const std::string& name, auto member) {
-            Settings settings;
-            settings.costs = CostModel{};
-            member(*settings.costs) = bad;
-            expect_refused(settings, "Settings::costs." + name + " is ");
-        };
-        const auto expect_kind = [&](auto QueryCosts::*kind, double WorkCost::*part,
-                                     const std::string& name) {
-            expect("compute.device." + name,
-                   [&](CostModel& costs) -> double& { return costs.compute.device.*kind.*part; });
-            expect("cpu.plan." + name,
-                   [&](CostModel& costs) -> double& { return costs.cpu.plan.*kind.*part; });
-            expect("cpu.answer." + name,
-                   [&](CostModel& costs) -> double& { return costs.cpu.answer.*kind.*part; });
-        };
-        expect_kind(&QueryCosts::points, &WorkCost::query, "points.query");
-        expect_kind(&QueryCosts::closest, &WorkCost::edge, "closest.edge");
-        expect_kind(&QueryCosts::intersection, &WorkCost::sample, "intersection.sample");
-        expect_kind(&QueryCosts::field, &WorkCost::edge, "field.edge");
-        expect_kind(&QueryCosts::features, &WorkCost::search, "features.search");
-        for (const auto& [stage, name] :
-             {std::pair(&DeviceCosts::plan, "plan"), std::pair(&DeviceCosts::read, "read")}) {
-            expect("raster." + std::string(name) + ".field.sample",
-                   [&, stage = stage](CostModel& costs) -> double& {
-                       return (costs.raster.*stage).field.sample;
-                   });
-        }
-        expect("raster.submission",
-               [](CostModel& costs) -> double& { return costs.raster.submission; });
-        expect("compute.latency",
-               [](CostModel& costs) -> double& { return costs.compute.latency; });
-        expect("overlap", [](CostModel& costs) -> double& { return costs.overlap; });
-    }
-    Settings settings;
-    settings.costs = CostModel{};
-    settings.costs->overlap = 1.01;
-    expect_refused(settings, "Settings::costs.overlap is 1.01; it must be at least 0 and at most");
-    settings.costs = CostModel{};  // all free, which is valid
-    settings.costs->overlap = 1.0;
-    EXPECT_TRUE(Context::create(driver_.host(), settings).has_value());
-}
-
 TEST_F(BadStructures, SettingsThatAreNoEnumerators) {
     Settings settings;
     settings.bounding_volume = beyond(BoundingVolume::oriented);
@@ -178,7 +130,7 @@ TEST_F(BadStructures, SizesThatCutAMemberInTwo) {
         expect(Context::create(host).error(), "HostDevice");
     }
     Settings settings;
-    settings.structure_size = offsetof(Settings, costs) + 8;
+    settings.structure_size = offsetof(Settings, device_thresholds) + 8;
     expect(Context::create(driver_.host(), settings).error(), "Settings");
     HeadlessOptions options;
     options.structure_size = offsetof(HeadlessOptions, log) + 8;

@@ -101,23 +101,21 @@ TEST(ComputeFamily, HasNoRasterAndSaysSo) {
     EXPECT_TRUE(on.answer(on.query<PenetrationQuery>(Technique::compute)).status.ok());
 }
 
-/// Costs by which the raster is for nothing, and nothing else is.
 TEST(ComputeFamily, IsNeverGivenTheRasterByAutomatic) {
-    Settings settings;
-    const WorkCost dear{1e6, 1e6, 1e6};
-    const QueryCosts too_dear{dear, dear, dear, dear, dear};
-    settings.costs = CostModel{};
-    settings.costs->compute = {1e6, 1e6, too_dear, too_dear, too_dear};
-    settings.costs->cpu = {too_dear, too_dear};
-    const auto chosen = [&](std::uint32_t family) {
-        OnFamily on(family, settings);
-        return on.answer(on.query<IntersectionQuery>(Technique::automatic)).technique;
+    const auto blended = [](OnFamily& on) {
+        auto query = on.query<DistanceFieldQuery>(Technique::automatic);
+        query.gradients = true;
+        query.gradient = GradientMethod::blended;
+        return on.answer(query);
     };
-    EXPECT_EQ(chosen(0), Technique::raster);
-    EXPECT_NE(chosen(1), Technique::raster);
-    // What stays on the device cannot be left to the CPU.
-    OnFamily on(1, settings);
-    IntersectionQuery query = on.query<IntersectionQuery>(Technique::automatic);
+    {
+        OnFamily drawing(0);
+        EXPECT_EQ(blended(drawing).technique, Technique::raster);
+    }
+    OnFamily on(1, {.device_thresholds = {.pairs = 1, .cells = 1}});
+    EXPECT_FALSE(blended(on).status.ok());
+    auto query = on.query<IntersectionQuery>(Technique::automatic);
+    EXPECT_EQ(on.answer(query).technique, Technique::compute);
     query.resident = true;
     EXPECT_EQ(on.answer(query).technique, Technique::compute);
 }

@@ -27,6 +27,7 @@ protected:
             all.batch.add(placed.penetration(PenetrationPoints::vertices));
             all.batch.add(placed.intersection(IntersectionKind::boundary_boundary));
             DistanceFieldQuery field;
+            field.technique = Technique::raster;
             field.b = placed.instance_b();
             field.tolerance = 0.3;
             field.rectangle = Rectangle{{-12, -12}, {12, 12}};

@@ -124,9 +124,8 @@ protected:
         Settings settings;
         settings.jobs = {nullptr, 4, run_jobs};
         std::optional<Expected<Context>> made;
-        measure("`Context::create`", [&] {
-            made.emplace(Context::create(loader_->host(), with_all_pipelines(settings)));
-        });
+        measure("`Context::create`",
+                [&] { made.emplace(Context::create(loader_->host(), settings)); });
         ASSERT_TRUE(made->has_value()) << made->error().text();
         context_.emplace(std::move(**made));
         a_ = *context_->add_shape(rings_);
@@ -201,11 +200,10 @@ protected:
     void measure_submitted() {
         Ticket ticket;
         measure("`submit`", [&] { ticket = *context_->submit(batch_); });
-        measure("`resident`, `memory_use`, `costs`, `device_name`", [&] {
+        measure("`resident`, `memory_use`, `device_name`", [&] {
             EXPECT_TRUE(context_->resident(ticket, field_).has_value());
             EXPECT_GT(context_->memory_use().in_use, 0U);
             EXPECT_FALSE(context_->device_name().empty());
-            static_cast<void>(context_->costs());
         });
         measure("`collect` of a submitted batch",
                 [&] { EXPECT_TRUE(context_->collect(ticket, results_).ok()); });

@@ -1,9 +1,9 @@
 #include <tests/query/pair.hpp>
 #include <tests/query/query_test.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 
 namespace nearfield::test {
 namespace {
@@ -13,75 +13,60 @@ constexpr std::uint64_t seed = 1618;
 /// Which technique answers, and what none can.
 using ChosenTechnique = QueryTest;
 
-/// Costs that make one technique free and the others expensive.
-CostModel favouring(Technique technique) {
-    CostModel costs = equally_dear();
-    switch (technique) {
-        case Technique::raster:
-            costs.raster = {};
-            break;
-        case Technique::compute:
-            costs.compute = {};
-            break;
-        default:
-            costs.cpu = {};
-            break;
-    }
-    return costs;
+/// Settings by which no amount of work makes a hardware device worth its while.
+Settings never_a_device() {
+    Settings settings;
+    settings.device_thresholds = {.pairs = UINT64_MAX, .cells = UINT64_MAX};
+    return on_demand(settings);
 }
 
-TEST_F(ChosenTechnique, AutomaticIsWhatCostsLeast) {
-    for (const Technique favourite : {Technique::raster, Technique::compute, Technique::cpu}) {
-        SCOPED_TRACE(to_string(favourite));
-        Settings settings;
-        settings.costs = favouring(favourite);
-        settings.pipelines_on_demand = true;
-        Expected<Context> made = Context::create(host_device(), settings);
-        ASSERT_TRUE(made.has_value()) << made.error().text();
-        Random random(seed);
-        const PlacedPair pair(
-            *made,
-            {{"A", star(random, 9, 0.5)}, {"B", star(random, 9, 0.5)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
-            Technique::automatic);
-        const auto expect = [&](const auto& query, Technique technique) {
-            const auto result = run_alone(*made, query);
-            EXPECT_TRUE(result.status.ok()) << result.status.text();
-            EXPECT_EQ(result.technique, technique);
-        };
-        expect(pair.penetration(), favourite);
-        expect(pair.penetration(PenetrationPoints::vertices), favourite);
-        // Compute would leave these to the CPU.
-        const Technique of_closest = favourite == Technique::compute ? Technique::cpu : favourite;
-        expect(pair.separation(), of_closest);
-        expect(pair.closest_point(), of_closest);
-        ContactQuery contacts = pair.contacts(0.1);
-        expect(contacts, favourite);
-        contacts.normals = ContactNormals::gradient;
-        expect(contacts, favourite);
-        expect(pair.intersection(IntersectionKind::volume_volume), favourite);
-        DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
-        expect(field, favourite);
-        field.gradients = true;
-        expect(field, favourite);
-        // A query that only one technique supports is answered by it, whatever its cost.
-        field.gradient = GradientMethod::blended;
-        expect(field, Technique::raster);
-        expect(IntersectionTestQuery{pair.instance_a(), pair.instance_b()}, Technique::cpu);
-        const Instance a = pair.instance_a();
-        const Instance b = pair.instance_b();
-        expect(TimeOfImpactQuery{a, b, a.pose, b.pose, 0.1}, Technique::cpu);
-        expect(SeparationVectorQuery{a, b, 0.1}, Technique::cpu);
-        expect(ContainmentQuery{a, b}, Technique::cpu);
-    }
+TEST_F(ChosenTechnique, AutomaticIsTheCpuForWhatItAnswers) {
+    Expected<Context> made = Context::create(host_device(), never_a_device());
+    ASSERT_TRUE(made.has_value()) << made.error().text();
+    Random random(seed);
+    const PlacedPair pair(
+        *made,
+        {{"A", star(random, 9, 0.5)}, {"B", star(random, 9, 0.5)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
+        Technique::automatic);
+    const auto expect = [&](const auto& query, Technique technique) {
+        const auto result = run_alone(*made, query);
+        EXPECT_TRUE(result.status.ok()) << result.status.text();
+        EXPECT_EQ(result.technique, technique);
+    };
+    const auto expect_resident = [&](auto query) {
+        expect(query, Technique::cpu);
+        query.resident = true;
+        expect(query, Technique::compute);
+    };
+    expect_resident(pair.penetration());
+    expect_resident(pair.penetration(PenetrationPoints::vertices));
+    expect_resident(pair.contacts(0.1));
+    expect_resident(pair.intersection(IntersectionKind::volume_volume));
+    DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
+    expect_resident(field);
+    field.gradients = true;
+    expect_resident(field);
+    field.gradient = GradientMethod::blended;
+    expect(field, Technique::raster);
+    ContactQuery contacts = pair.contacts(0.1);
+    contacts.normals = ContactNormals::gradient;
+    expect(contacts, Technique::cpu);
+    expect(pair.separation(), Technique::cpu);
+    expect(pair.closest_point(), Technique::cpu);
+    const Instance a = pair.instance_a();
+    const Instance b = pair.instance_b();
+    expect(IntersectionTestQuery{a, b}, Technique::cpu);
+    expect(TimeOfImpactQuery{a, b, a.pose, b.pose, 0.1}, Technique::cpu);
+    expect(SeparationVectorQuery{a, b, 0.1}, Technique::cpu);
+    expect(ContainmentQuery{a, b}, Technique::cpu);
 }
 
 /// Compute refuses a field where too many edges are equally near to a cell, which it finds out
 /// while it answers.
 TEST_F(ChosenTechnique, AutomaticFieldsAreNotRefused) {
     Settings settings;
-    settings.costs = favouring(Technique::compute);
-    settings.pipelines_on_demand = true;
-    Expected<Context> made = Context::create(host_device(), settings);
+    settings.device_thresholds = {.pairs = 0, .cells = 0};
+    Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     const Expected<ShapeHandle> shape =
         made->add_shape(scaled_and_moved(regular(25000), 1e-5, {0.3, 0.3}));

@@ -92,7 +92,8 @@ TEST_F(ComputeIntersections, HoldForLongEdgesInALargeTile) {
 }
 
 TEST_F(ComputeIntersections, HoldOverManyTileBatches) {
-    Expected<Context> small = Context::create(host_device(), drawing({.memory_limit = 12U << 20U}));
+    Expected<Context> small =
+        Context::create(host_device(), on_demand({.memory_limit = 12U << 20U}));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     Random random(seed);
     check(*small, {{"A", scaled_and_moved(with_holes(random, 5), 10.0, {})},

@@ -221,7 +221,8 @@ TEST_F(ComputeFields, AreRefusedWhereTooManyEdgesAreEquallyNear) {
 
 TEST_F(ComputeFields, HoldOverManyRounds) {
     // So little memory that a tile batch has 256 x 256 cells.
-    Expected<Context> small = Context::create(host_device(), drawing({.memory_limit = 24U << 20U}));
+    Expected<Context> small =
+        Context::create(host_device(), on_demand({.memory_limit = 24U << 20U}));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     Random random(seed);
     const PlacedShape shape(*small, star(random, 60, 0.4), {});
@@ -297,7 +298,7 @@ TEST_F(ComputeFields, BlendedGradientsAreRefusedByName) {
 
 TEST_F(ComputeFields, PointsAfterTheRastersImagesAreGone) {
     // More kinds of batches than cached compiled graphs: images of the first ones are destroyed.
-    Expected<Context> made = Context::create(host_device(), drawing());
+    Expected<Context> made = Context::create(host_device(), on_demand());
     ASSERT_TRUE(made.has_value()) << made.error().text();
     Random random(seed);
     const PlacedPair pair(
@@ -342,7 +343,7 @@ TEST_F(ComputeFields, PointsAfterTheRastersImagesAreGone) {
 TEST_F(ComputeFields, MasksCountTowardsTheMemoryLimit) {
     Settings settings;
     settings.memory_limit = std::uint64_t{64} << 20U;
-    Expected<Context> small = Context::create(host_device(), drawing(settings));
+    Expected<Context> small = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     const PlacedPair pair(
         *small, {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 2e-5});

@@ -28,6 +28,7 @@ TEST_F(Corpus, EveryQueryIsRight) {
         check_contacts(placed, one.contact_distance,
                        run_alone(context(), placed.contacts(one.contact_distance)));
         DistanceFieldQuery field;
+        field.technique = Technique::raster;
         field.b = placed.instance_b();
         field.tolerance = placed.tolerance();
         field.rectangle = placed.b().box();

@@ -93,7 +93,7 @@ void CountedContext::leave() {
 void CountedContext::make(const Settings& settings) {
     leave();
     loader_.emplace(host_device(), counting());
-    Expected<Context> made = Context::create(loader_->host(), drawing(settings));
+    Expected<Context> made = Context::create(loader_->host(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     counted_.emplace(std::move(*made));
     Random random(seed);

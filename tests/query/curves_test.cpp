@@ -122,6 +122,7 @@ TEST_F(Curves, IntersectionsOfCirclesKeepTheirLaw) {
     const Circle b{{2.6, 0.5}, 1.5};
     const double d = 0.2;
     IntersectionQuery query;
+    query.technique = Technique::raster;
     query.a = add(a, 0.15 * d);
     query.b = add(b, 0.1 * d);
     query.tolerance = d;
@@ -189,6 +190,7 @@ TEST_F(Curves, TooMuchDeviationIsRefusedByName) {
         << result.status.message();
     // A distance field depends on A only through its box.
     DistanceFieldQuery field{query.a, query.b, 0.2, std::nullopt};
+    field.technique = Technique::raster;
     EXPECT_TRUE(run_alone(context(), field).status.ok());
     // An update replaces the deviation of the rings.
     const std::vector<Ring> rings{{{0, 0}, {2, 0}, {2, 2}}};

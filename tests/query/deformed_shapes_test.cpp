@@ -24,7 +24,7 @@ class DeformedShapes : public QueryTest {
 protected:
     /// What a context that knows no other shapes says.
     static std::vector<double> of_fresh_shapes(const Rings& rings_a, const Rings& rings_b) {
-        Context fresh = *Context::create(host_device(), drawing());
+        Context fresh = *Context::create(host_device(), on_demand());
         const ShapeHandle a = *fresh.add_shape(rings_a);
         const ShapeHandle b = *fresh.add_shape(rings_b);
         return answers(fresh, a, b);
@@ -52,7 +52,7 @@ TEST_F(DeformedShapes, AreAnsweredAsFreshOnesFromBatchToBatch) {
     // Tiles see few edges as a whole, many by windows.
     for (const int edges : {200, 600}) {
         SCOPED_TRACE(std::to_string(edges) + " edges");
-        Context kept = *Context::create(host_device(), drawing());
+        Context kept = *Context::create(host_device(), on_demand());
         const ShapeHandle a = *kept.add_shape(wavy(edges, 0.0));
         const ShapeHandle b = *kept.add_shape(wavy(edges, 1.0));
         std::vector<double> last;

@@ -132,7 +132,7 @@ TEST_F(DeviceQuerySubmissions, OfTwoWorldsInTurns) {
 }
 
 TEST_F(DeviceQuerySubmissions, DoNotDependOnJobs) {
-    Settings settings = drawing();
+    Settings settings = on_demand();
     settings.jobs = {nullptr, 3, run_on_threads};
     Expected<Context> context = Context::create(host_device(), settings);
     ASSERT_TRUE(context.has_value()) << context.error().text();
@@ -211,12 +211,12 @@ TEST_F(DeviceQuerySubmissions, AreRefusedWithoutMemoryOrCompute) {
         EXPECT_EQ(fewer.ok(), status.code() != StatusCode::unsupported_technique);
         return status;
     };
-    Settings settings = drawing();
+    Settings settings = on_demand();
     settings.memory_limit = 1U << 20U;
     Expected<Context> small = Context::create(host_device(), settings);
     ASSERT_TRUE(small.has_value()) << small.error().text();
     EXPECT_EQ(cast(*small).code(), StatusCode::too_large);
-    settings = drawing();
+    settings = on_demand();
     settings.techniques.compute = false;
     Expected<Context> drawing_only = Context::create(host_device(), settings);
     ASSERT_TRUE(drawing_only.has_value()) << drawing_only.error().text();

@@ -21,11 +21,12 @@ protected:
         for (int i = 0; i < pairs; ++i) {
             const Instance a{a_, {{0.0, 0.0}, 0.1 * i}};
             const Instance b{b_, {{0.3, 0.01 * i}, 0.2 * i}};
-            batch.add(PenetrationQuery{a, b, 0.05});
-            batch.add(ContactQuery{a, b, 0.05, 0.05});
+            batch.add(drawn(PenetrationQuery{a, b, 0.05}));
+            batch.add(drawn(ContactQuery{a, b, 0.05, 0.05}));
             for (const SignEncoding sign :
                  {SignEncoding::stencil, SignEncoding::color, SignEncoding::feature_bit}) {
                 DistanceFieldQuery field;
+                field.technique = Technique::raster;
                 field.a = a;
                 field.b = b;
                 field.tolerance = 0.1;
@@ -38,6 +39,7 @@ protected:
                  {IntersectionStrategy::stencil, IntersectionStrategy::blend,
                   IntersectionStrategy::depth}) {
                 IntersectionQuery samples{a, b, 0.05};
+                samples.technique = Technique::raster;
                 samples.strategy = strategy;
                 batch.add(samples);
                 samples.kind = IntersectionKind::volume_volume;
@@ -82,7 +84,7 @@ TEST_F(Draws, OfOneKindAreTheSameForAnyNumberOfPairs) {
     for (const int pairs : {2, 20, 200}) {
         Batch batch;
         for (int i = 0; i < pairs; ++i) {
-            batch.add(PenetrationQuery{{a_, {}}, {b_, {{0.3, 0.0}, 0.01 * i}}, 0.1});
+            batch.add(drawn(PenetrationQuery{{a_, {}}, {b_, {{0.3, 0.0}, 0.01 * i}}, 0.1}));
         }
         calls = {};
         static_cast<void>(run(batch));

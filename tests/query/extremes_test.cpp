@@ -86,6 +86,7 @@ TEST_F(Extremes, AFieldFarAwayStatesWhatSinglePrecisionLeavesOrIsRefused) {
     for (const double x : {1e3, 1e5, 1e6, 1e7}) {
         SCOPED_TRACE(x);
         DistanceFieldQuery query;
+        query.technique = Technique::raster;
         query.b.shape = *b;
         query.tolerance = 0.1;
         query.rectangle = Rectangle{{x, 0.0}, {x + 5.0, 2.0}};
@@ -141,11 +142,12 @@ TEST_F(Extremes, ALongEdgeOfAIsSampledOnlyNearB) {
 TEST_F(Extremes, ManyOverlapTilesFillABufferToItsEnd) {
     // Only tiles in the input buffer, of about the size to which it grows.
     for (const int count : {1360, 1365, 4092, 4096}) {
-        auto fresh = Context::create(host_device(), drawing());
+        auto fresh = Context::create(host_device(), on_demand());
         ASSERT_TRUE(fresh.has_value());
         const auto square = fresh->add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
         ASSERT_TRUE(square.has_value());
         IntersectionQuery query;
+        query.technique = Technique::raster;
         query.a.shape = query.b.shape = *square;
         query.b.pose.translation = {0.5, 0.5};
         query.tolerance = 0.3;

@@ -24,7 +24,7 @@ protected:
                                         : VK_PHYSICAL_DEVICE_TYPE_CPU;
         };
         loader_.emplace(host_device(), std::move(lies));
-        Expected<Context> made = Context::create(loader_->host(), drawing());
+        Expected<Context> made = Context::create(loader_->host(), on_demand());
         ASSERT_TRUE(made.has_value()) << made.error().text();
         other_.emplace(std::move(*made));
     }

@@ -18,6 +18,7 @@ protected:
         Expected<ShapeHandle> handle = context().add_shape(rings);
         EXPECT_TRUE(handle.has_value()) << handle.error().text();
         DistanceFieldQuery query;
+        query.technique = Technique::raster;
         query.b = {*handle, pose};
         query.tolerance = tolerance;
         query.rectangle = rectangle;
@@ -120,6 +121,7 @@ TEST_F(Field, CoversWhatTheBoxesShare) {
         SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i) + '\n' +
                      describe(pair.pair()));
         DistanceFieldQuery query;
+        query.technique = Technique::raster;
         query.a = pair.instance_a();
         query.b = pair.instance_b();
         query.tolerance = pair.tolerance();

@@ -59,6 +59,7 @@ TEST_F(Frames, KeepImagesThatOthersOutgrow) {
     const double tolerances[] = {0.2, 0.004, 0.0015};  // each needs a larger atlas
     for (std::size_t i = 0; i < batches.size(); ++i) {
         IntersectionQuery query{{a_, {}}, {b_, {}}, tolerances[i]};
+        query.technique = Technique::raster;
         query.records = false;
         batches[i].add(query);
     }
@@ -86,6 +87,7 @@ TEST_F(Frames, OfSeveralRoundsTakeOneSubmission) {
     watched_query.records = false;
     const auto intersection = batch.add(watched_query);
     DistanceFieldQuery query;
+    query.technique = Technique::raster;
     query.b = placed.instance_b();
     query.tolerance = 0.003;
     query.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
@@ -116,8 +118,8 @@ TEST_F(Frames, WithMoreSamplesThanRoomRunAgainOnce) {
     settings.memory_limit = 16U << 20U;
     make(settings);
     Batch batch;
-    batch.add(IntersectionQuery{{a_, {}}, {a_, {}}, 0.0033});  // most of the box is in both
-    batch.add(IntersectionQuery{{a_, {}}, {b_, {}}, 0.05});
+    batch.add(drawn(IntersectionQuery{{a_, {}}, {a_, {}}, 0.0033}));  // most of the box is in both
+    batch.add(drawn(IntersectionQuery{{a_, {}}, {b_, {}}, 0.05}));
     const Ticket first = submit(batch);
     const Ticket second = submit(batch);
     EXPECT_EQ(calls.submissions, 2);

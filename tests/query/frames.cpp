@@ -13,10 +13,11 @@ Batch Frames::batch(int number) const {
         batch.add(SeparationQuery{here, apart, 0.04, technique});
         batch.add(ClosestPointQuery{here, apart, 0.04, technique});
     }
-    batch.add(IntersectionQuery{here, there, 0.04});
-    batch.add(IntersectionQuery{here, there, 0.04, IntersectionKind::boundary_volume});
-    batch.add(ContactQuery{here, there, 0.04, 0.05, ContactNormals::gradient});
+    batch.add(drawn(IntersectionQuery{here, there, 0.04}));
+    batch.add(drawn(IntersectionQuery{here, there, 0.04, IntersectionKind::boundary_volume}));
+    batch.add(drawn(ContactQuery{here, there, 0.04, 0.05, ContactNormals::gradient}));
     DistanceFieldQuery field;
+    field.technique = Technique::raster;
     field.b = there;
     field.tolerance = 0.1;
     field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};

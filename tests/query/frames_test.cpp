@@ -47,7 +47,7 @@ TEST_F(Frames, AreNoMoreThanTheRingHolds) {
         SCOPED_TRACE(frames);
         make(frames);
         Batch small;
-        small.add(IntersectionQuery{{a_, {}}, {b_, {}}, 0.2});
+        small.add(drawn(IntersectionQuery{{a_, {}}, {b_, {}}, 0.2}));
         std::vector<Ticket> tickets;
         for (std::uint32_t i = 0; i < frames; ++i) {
             tickets.push_back(submit(small));
@@ -66,7 +66,7 @@ TEST_F(Frames, AreNoMoreThanTheRingHolds) {
     for (const std::uint32_t frames : {0U, 9U}) {
         Settings settings;
         settings.batches_in_flight = frames;
-        const Expected<Context> made = Context::create(host_device(), drawing(settings));
+        const Expected<Context> made = Context::create(host_device(), on_demand(settings));
         ASSERT_FALSE(made.has_value());
         EXPECT_EQ(made.error().code(), StatusCode::invalid_settings);
         EXPECT_NE(made.error().message().find("batches_in_flight is " + std::to_string(frames)),
@@ -96,6 +96,7 @@ TEST_F(Frames, ThatAreRefusedLeaveNothing) {
     settings.memory_limit = 16U << 20U;
     make(settings);
     DistanceFieldQuery field;
+    field.technique = Technique::raster;
     field.b = {b_, {}};
     field.tolerance = 1e-4;
     field.rectangle = Rectangle{{-1, -1}, {1, 1}};
@@ -175,7 +176,7 @@ TEST_F(Frames, OfTwoContextsDoNotMeet) {
     make(2);
     Settings settings;
     settings.batches_in_flight = 1;
-    Expected<Context> second = Context::create(host_device(), drawing(settings));
+    Expected<Context> second = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(second.has_value()) << second.error().text();
     const Expected<ShapeHandle> a = second->add_shape(rings_a_);
     const Expected<ShapeHandle> b = second->add_shape(rings_b_);

@@ -106,12 +106,13 @@ TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
         }
     };
     const test_support::FakeLoader loader(host_device(), std::move(lies));
-    Expected<Context> half = Context::create(loader.host(), drawing());
+    Expected<Context> half = Context::create(loader.host(), on_demand());
     ASSERT_TRUE(half.has_value()) << half.error().text();
     Random random(seed);
     const Rings rings = star(random, 30, 0.4);
     const PlacedShape shape(*half, rings, {});
     DistanceFieldQuery query;
+    query.technique = Technique::raster;
     query.b = shape.instance();
     query.tolerance = 0.01;
     query.rectangle = {{-1.5, -1.5}, {1.5, 1.5}};
@@ -137,6 +138,7 @@ TEST_F(Gradients, SinglePrecisionCostsNearlyNothing) {
     Random random(seed);
     const PlacedShape shape(context(), star(random, 30, 0.4), {});
     DistanceFieldQuery query;
+    query.technique = Technique::raster;
     query.b = shape.instance();
     query.tolerance = 0.01;
     query.rectangle = {{-1.5, -1.5}, {1.5, 1.5}};
@@ -157,10 +159,11 @@ TEST_F(Gradients, HoldAcrossTilesAndRounds) {
     Random random(seed + 7);
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;  // a small atlas
-    Expected<Context> small = Context::create(host_device(), drawing(settings));
+    Expected<Context> small = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     const PlacedShape shape(*small, scaled_and_moved(star(random, 12, 0.3), 20.0, {}), {});
     DistanceFieldQuery query;
+    query.technique = Technique::raster;
     query.b = shape.instance();
     query.tolerance = 0.02;
     query.rectangle = {{-20.0, 3.0}, {20.0, 5.0}};
@@ -181,6 +184,7 @@ TEST_F(Gradients, HoldAcrossTilesAndRounds) {
 TEST_F(Gradients, OnTheBoundaryAreTheWall) {
     const PlacedShape shape(context(), rectangle({0, 0}, {4, 4}), {});
     DistanceFieldQuery query;
+    query.technique = Technique::raster;
     query.b = shape.instance();
     query.tolerance = 0.1;
     query.rectangle = {{-1, -1}, {5, 5}};
@@ -213,6 +217,7 @@ TEST_F(Gradients, FollowRigidMotions) {
             moved.push_back(oracle::plus(turned(points.back(), motion.angle), motion.translation));
         }
         DistanceFieldQuery query;
+        query.technique = Technique::raster;
         query.tolerance = 0.05;
         query.values = false;
         query.b = here.instance();

@@ -11,7 +11,7 @@ class HostFramesInFlight : public CountedContext {
 protected:
     [[nodiscard]] Batch batch() const {
         Batch batch;
-        batch.add(IntersectionQuery{{a_, {}}, {b_, {}}, 0.1});
+        batch.add(drawn(IntersectionQuery{{a_, {}}, {b_, {}}, 0.1}));
         return batch;
     }
 };

@@ -19,7 +19,7 @@ protected:
     [[nodiscard]] Batch batch(int number) const { return every_query(a_, b_, number, true); }
     [[nodiscard]] Batch small() const {
         Batch batch;
-        batch.add(IntersectionQuery{{a_, {}}, {b_, {}}, 0.1});
+        batch.add(drawn(IntersectionQuery{{a_, {}}, {b_, {}}, 0.1}));
         return batch;
     }
 };
@@ -232,6 +232,7 @@ TEST_F(Recorded, NothingIsRecordedWhereItIsRefused) {
         return counted().record(batch, where).error().code();
     };
     DistanceFieldQuery field;
+    field.technique = Technique::raster;
     field.b = {b_, {}};
     field.tolerance = 1e-4;
     field.rectangle = Rectangle{{-1, -1}, {1, 1}};
@@ -280,7 +281,7 @@ TEST_F(Recorded, OpenFramesAreNamedWhenTheContextGoes) {
     Settings settings;
     settings.batches_in_flight = 4;
     for (const bool told : {true, false}) {
-        auto going = std::make_optional(*Context::create(device, drawing(settings)));
+        auto going = std::make_optional(*Context::create(device, on_demand(settings)));
         a_ = *going->add_shape(regular(5));
         b_ = *going->add_shape(regular(7));
         const auto record = [&](std::uint64_t frame) {

@@ -40,6 +40,7 @@ Batch Scene::small(double tolerance) const {
     Batch batch;
     IntersectionQuery query{{a, {}}, {b, {}}, tolerance};
     query.records = false;
+    query.technique = Technique::raster;
     batch.add(query);
     return batch;
 }
@@ -83,7 +84,7 @@ Context HostTable::make(const HostDevice& device, std::uint32_t frames) {
     Settings settings;
     settings.batches_in_flight = frames;
     settings.timestamps = true;
-    Expected<Context> made = Context::create(device, drawing(settings));
+    Expected<Context> made = Context::create(device, on_demand(settings));
     if (!made) {
         throw std::runtime_error(made.error().text());
     }

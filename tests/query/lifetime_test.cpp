@@ -128,7 +128,7 @@ TEST_F(Lifetime, AHeadlessContextNamesTheDeviceItCannotFind) {
 }
 
 TEST_F(Lifetime, TwoContextsOnOneDeviceDoNotMeet) {
-    Expected<Context> second = Context::create(host_device(), drawing());
+    Expected<Context> second = Context::create(host_device(), on_demand());
     ASSERT_TRUE(second.has_value()) << second.error().text();
     const std::vector<Pair> pairs = family_pairs(seed + 1);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -140,7 +140,7 @@ TEST_F(Lifetime, TwoContextsOnOneDeviceDoNotMeet) {
 }
 
 TEST_F(Lifetime, TheGraphDescribesItself) {
-    Expected<Context> fresh = Context::create(host_device(), drawing());
+    Expected<Context> fresh = Context::create(host_device(), on_demand());
     ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
     EXPECT_TRUE(describe_graph(*fresh, GraphFormat::text)->empty());
     const PlacedPair pair(*fresh, family_pairs(seed)[3]);

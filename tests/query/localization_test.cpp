@@ -14,7 +14,7 @@ TEST_F(Localization, NoSettingChangesWhatIsTrue) {
             Settings settings;
             settings.bounding_volume = volume;
             settings.hierarchy_height = height;
-            auto made = Context::create(host_device(), drawing(settings));
+            auto made = Context::create(host_device(), on_demand(settings));
             ASSERT_TRUE(made.has_value()) << made.error().text();
             const std::uint64_t seed = 40 + height;
             Random random(seed);
@@ -54,7 +54,7 @@ TEST_F(Localization, StatisticsCountAndOrientedBoxesNeedLess) {
         Settings settings;
         settings.bounding_volume = volume;
         settings.hierarchy_height = 3;
-        auto made = Context::create(host_device(), drawing(settings));
+        auto made = Context::create(host_device(), on_demand(settings));
         ASSERT_TRUE(made.has_value()) << made.error().text();
         const auto a = made->add_shape({&band, 1});
         const auto b = made->add_shape({&beside, 1});

@@ -24,7 +24,7 @@ public:
 
     Context& context() {
         if (!context_) {
-            Expected<Context> made = Context::create(host_->device(), drawing());
+            Expected<Context> made = Context::create(host_->device(), on_demand());
             if (!made) {
                 throw std::runtime_error(made.error().text());
             }
@@ -49,23 +49,8 @@ const testing::Environment* const registered = testing::AddGlobalTestEnvironment
 
 }  // namespace
 
-CostModel equally_dear() {
-    constexpr WorkCost dear{1.0, 1.0, 1.0};
-    constexpr QueryCosts too_dear{dear, dear, dear, dear, dear};
-    constexpr DeviceCosts device{1.0, 1.0, too_dear, too_dear, too_dear};
-    return {device, device, {too_dear, too_dear}};
-}
-
-Settings drawing(Settings settings) {
-    settings.costs = equally_dear();
-    settings.costs->raster = {};
+Settings on_demand(Settings settings) {
     settings.pipelines_on_demand = true;
-    return settings;
-}
-
-Settings with_all_pipelines(Settings settings) {
-    settings = drawing(settings);
-    settings.pipelines_on_demand = false;
     return settings;
 }
 

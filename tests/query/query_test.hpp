@@ -29,15 +29,15 @@ void for_each_case(std::uint64_t seed, int usual, const Check& check) {
     }
 }
 
-/// Costs by which no technique is cheap; tests make one of them free.
-[[nodiscard]] CostModel equally_dear();
+/// Settings with which no pipeline is made that a test does not need.
+[[nodiscard]] Settings on_demand(Settings settings = {});
 
-/// Settings with which Technique::automatic uses the raster wherever possible, so that a query
-/// without a technique tests it, and with which no pipeline is made that a test does not need.
-[[nodiscard]] Settings drawing(Settings settings = {});
-
-/// The same with all pipelines made at once, as by default.
-[[nodiscard]] Settings with_all_pipelines(Settings settings = {});
+/// The query, by the raster.
+template <class Query>
+[[nodiscard]] Query drawn(Query query) {
+    query.technique = Technique::raster;
+    return query;
+}
 
 /// Tests that share one context on one bare, validated host device. A test fails if the validation
 /// layers report anything.

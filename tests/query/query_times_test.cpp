@@ -18,7 +18,7 @@ protected:
     }
 
     void make(const Settings& settings) {
-        Expected<Context> made = Context::create(host_device(), drawing(settings));
+        Expected<Context> made = Context::create(host_device(), on_demand(settings));
         ASSERT_TRUE(made.has_value()) << made.error().text();
         made_.emplace(std::move(*made));
         Random random(9100);

@@ -279,13 +279,14 @@ TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
     Random random(seed);
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;
-    Expected<Context> small = Context::create(host_device(), drawing(settings));
+    Expected<Context> small = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     const PlacedShape shape(*small, scaled_and_moved(star(random, 12, 0.3), 20.0, {}), {});
     const Rectangle box{{-20.0, 3.0}, {20.0, 5.0}};
     for (const auto method :
          {GradientMethod::analytic, GradientMethod::central_differences, GradientMethod::blended}) {
         DistanceFieldQuery query;
+        query.technique = Technique::raster;
         query.b = shape.instance();
         query.tolerance = 0.02;
         query.rectangle = box;
@@ -333,6 +334,7 @@ TEST_F(Reconstruction, GradientsAtPointsAreBilinearBetweenCells) {
     const PlacedShape shape(context(), star(random, 20, 0.4), {});
     for (const auto method : {GradientMethod::central_differences, GradientMethod::blended}) {
         DistanceFieldQuery query;
+        query.technique = Technique::raster;
         query.b = shape.instance();
         query.tolerance = 0.03;
         query.rectangle = {{-1, -1}, {1, 1}};

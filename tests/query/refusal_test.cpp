@@ -105,17 +105,19 @@ TEST_F(Refusal, OfPointsOutsideTheField) {
 TEST_F(Refusal, OfFieldsThatNeedTooMuch) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;
-    Expected<Context> small = Context::create(host_device(), drawing(settings));
+    Expected<Context> small = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     const Expected<ShapeHandle> shape = small->add_shape(rectangle({0, 0}, {1, 1}));
     ASSERT_TRUE(shape.has_value());
     // A size that fits for distances alone does not fit with features and gradients.
     DistanceFieldQuery query{{}, {*shape, {}}, 0.0005, Rectangle{{0, 0}, {1, 1}}};
+    query.technique = Technique::raster;
     EXPECT_TRUE(run_alone(*small, query).status.ok());
     query.features = query.gradients = true;
     EXPECT_EQ(run_alone(*small, query).status.code(), StatusCode::too_large);
     const std::vector<Vector2> points(1'000'000, Vector2{0.5, 0.5});
     query = {{}, {*shape, {}}, 0.01, Rectangle{{0, 0}, {1, 1}}};
+    query.technique = Technique::raster;
     query.points = points;
     EXPECT_EQ(run_alone(*small, query).status.code(), StatusCode::too_large);
 }
@@ -177,7 +179,7 @@ std::vector<double> numbers_in(const std::string& text) {
 TEST_F(Refusal, OfTolerancesTooSmallNamesTheSmallestPossible) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;
-    Expected<Context> small = Context::create(host_device(), drawing(settings));
+    Expected<Context> small = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     Random random(1);
     const PlacedPair pair(

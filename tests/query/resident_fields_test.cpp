@@ -94,7 +94,7 @@ TEST_F(Resident, FieldOfDistancesAlone) {
 TEST_F(Resident, FieldOfManyRoundsOfWhichNothingComesBack) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;  // small atlas images
-    Expected<Context> made = Context::create(host_device(), drawing(settings));
+    Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     Random random(field_seed);
     for (const Technique technique : on_device) {

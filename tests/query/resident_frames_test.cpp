@@ -29,7 +29,7 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
         {"coast", coast(random, 120, 0.5)}, {"holes", with_holes(random, 3)}, {}, {}, 0.03};
     Settings settings;
     settings.batches_in_flight = 2;
-    Expected<Context> made = Context::create(host_device(), drawing(settings));
+    Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     const PlacedPair pair(*made, shapes, Technique::raster);
     struct Frame {
@@ -78,7 +78,7 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
     for (const Technique technique : on_device) {
         // With its own context: the samples of the intersection, most cells of its regions, exceed
         // the capacity of the first submission, and their tile batches are submitted again.
-        Expected<Context> made = Context::create(host_device(), drawing());
+        Expected<Context> made = Context::create(host_device(), on_demand());
         ASSERT_TRUE(made.has_value()) << made.error().text();
         const PlacedPair pair(*made, shapes, technique);
         const auto ask_all = [&](bool resident, std::size_t& records) {
@@ -120,7 +120,7 @@ TEST_F(Resident, ImagesOnlyGrow) {
         {"coast", coast(random, 120, 0.5)}, {"holes", with_holes(random, 3)}, {}, {}, 0.03};
     Settings settings;
     settings.batches_in_flight = 1;
-    Expected<Context> made = Context::create(host_device(), drawing(settings));
+    Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     const PlacedPair pair(*made, shapes, Technique::raster);
     DistanceFieldQuery query = field_of(pair, Technique::raster);
@@ -152,6 +152,7 @@ TEST_F(Resident, RefusesByName) {
     ContactQuery gradients{here, here, 0.1, 0.1, ContactNormals::gradient};
     gradients.resident = true;
     DistanceFieldQuery field;
+    field.technique = Technique::raster;
     field.b = here;
     field.tolerance = 0.1;
     field.rectangle = Rectangle{{0.0, 0.0}, {1.0, 1.0}};
@@ -195,11 +196,9 @@ TEST_F(Resident, RefusesByName) {
 }
 
 TEST_F(Resident, AutomaticAnswersOnTheDevice) {
-    // With costs that always make the CPU the fastest.
     Settings settings;
-    settings.costs = equally_dear();
-    settings.costs->cpu = {};
-    Expected<Context> made = Context::create(host_device(), settings);
+    settings.device_thresholds = {.pairs = UINT64_MAX, .cells = UINT64_MAX};
+    Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     const ShapeHandle shape = *made->add_shape(regular(5));
     PenetrationQuery query{{shape, {}}, {shape, {{0.3, 0.0}, 0.1}}, 0.1};

@@ -20,7 +20,7 @@ protected:
         Resident::SetUp();
         Settings settings;
         settings.batches_in_flight = frames;
-        Expected<Context> made = Context::create(host_device(), drawing(settings));
+        Expected<Context> made = Context::create(host_device(), on_demand(settings));
         ASSERT_TRUE(made.has_value()) << made.error().text();
         made_.emplace(std::move(*made));
         Random random(seed);
@@ -45,6 +45,7 @@ protected:
         const Instance a{shape_, {{0.1, 0.0}, angle}};
         const Instance b{other_, {}};
         DistanceFieldQuery field;
+        field.technique = Technique::raster;
         field.b = b;
         field.tolerance = tolerance;
         field.rectangle = Rectangle{{-1.5, -1.25}, {1.0, 1.5}};
@@ -52,6 +53,7 @@ protected:
         PenetrationQuery depths{a, b, tolerance};
         ContactQuery contacts{a, b, tolerance, 0.05};
         IntersectionQuery overlap{a, b, tolerance};
+        depths.technique = contacts.technique = overlap.technique = Technique::raster;
         depths.resident = contacts.resident = overlap.resident = true;
         IntersectionQuery counted = overlap;
         counted.resident_samples = false;
@@ -208,6 +210,7 @@ TEST_F(ResidentLayout, RecordsThatMoveSaySo) {
     std::uint64_t revision = 0;
     for (const double tolerance : {0.03, 0.01, 0.003}) {
         PenetrationQuery query{{shape_, {{0.1, 0.0}, 0.4}}, {other_, {}}, tolerance};
+        query.technique = Technique::raster;
         query.resident = true;
         Resident::ask(made(), query, [&](const ResidentRecords& records) {
             EXPECT_EQ(records.slot.index, 0U);
@@ -237,12 +240,14 @@ double diameter(const Rings& rings) {
 struct PosedQueries {
     PosedQueries(ShapeHandle moving, const Pose& pose, const Instance& fixed) {
         PenetrationQuery penetration{{moving, pose}, fixed, 0.02};
+        penetration.technique = Technique::raster;
         penetration.resident = true;
         depths = batch.add(penetration);
         penetration.points = PenetrationPoints::vertices;
         vertices = batch.add(penetration);
         ContactQuery near{{moving, pose}, fixed, 0.02, 3.0};
         IntersectionQuery common{{moving, pose}, fixed, 0.02};
+        near.technique = common.technique = Technique::raster;
         near.resident = common.resident = true;
         contacts = batch.add(near);
         overlap = batch.add(common);
@@ -349,7 +354,7 @@ TEST_F(ResidentLayout, TrimGivesBackWhatGrowthLeft) {
 TEST_F(ResidentLayout, TimestampsCanBeTurnedOff) {
     Settings settings;
     settings.timestamps = false;
-    Expected<Context> untimed = Context::create(host_device(), drawing(settings));
+    Expected<Context> untimed = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(untimed.has_value()) << untimed.error().text();
     Random random(seed);
     shape_ = *untimed->add_shape(coast(random, 120, 0.5));

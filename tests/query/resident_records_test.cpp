@@ -253,7 +253,7 @@ TEST_F(Resident, NormalsAtCornersPointOut) {
 TEST_F(Resident, RecordsOfManyRoundsSayWhereTheyBelong) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;  // small atlas images
-    Expected<Context> made = Context::create(host_device(), drawing(settings));
+    Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     Random random(record_seed);
     const Rings rings = with_holes(random, 3);

@@ -186,7 +186,7 @@ TEST_F(ResidentIntersections, EdgesOfRealOutlines) {
 Expected<Context> context_of_many_rounds(const HostDevice& host) {
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;
-    return Context::create(host, drawing(settings));
+    return Context::create(host, on_demand(settings));
 }
 
 Pair pair_of_many_rounds() {
@@ -304,7 +304,7 @@ TEST_F(ResidentIntersections, OfManyQueriesInFlightEachHasItsOwn) {
 }
 
 TEST_F(ResidentIntersections, RecordedIntoAHostsCommandsTheyAreTheSame) {
-    Expected<Context> made = Context::create(host_device(), drawing());
+    Expected<Context> made = Context::create(host_device(), on_demand());
     ASSERT_TRUE(made.has_value()) << made.error().text();
     test_support::HostFrames host(host_device(), 1);
     std::uint64_t number = 0;

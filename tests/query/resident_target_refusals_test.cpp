@@ -34,6 +34,7 @@ protected:
 
     [[nodiscard]] DistanceFieldQuery field() const {
         DistanceFieldQuery query;
+        query.technique = Technique::raster;
         query.b = {shape_, {}};
         query.tolerance = 0.05;
         query.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
@@ -42,6 +43,7 @@ protected:
     }
     [[nodiscard]] PenetrationQuery depths() const {
         PenetrationQuery query{{shape_, {{0.3, 0.0}, 0.1}}, {shape_, {}}, 0.01};
+        query.technique = Technique::raster;
         query.resident = true;
         return query;
     }
@@ -161,10 +163,12 @@ TEST_F(TargetRefusals, OfBuffers) {
     ResidentBufferTarget small = buffer_;
     small.size = 100;
     ContactQuery contacts{query.a, query.b, query.tolerance, 0.02};
+    contacts.technique = Technique::raster;
     contacts.resident = true;
     contacts.target = &small;
     expect(run_alone(context(), contacts).status, "the records may take");
     IntersectionQuery overlap{query.a, query.b, query.tolerance};
+    overlap.technique = Technique::raster;
     overlap.resident = true;
     overlap.target = &small;
     expect(run_alone(context(), overlap).status, "the samples may take");
@@ -175,6 +179,7 @@ TEST_F(TargetRefusals, OfBuffers) {
 TEST_F(TargetRefusals, RoomIsForTheRecordsOfBothBoundaries) {
     const PenetrationQuery query = depths();
     ContactQuery contacts{query.a, query.b, query.tolerance, 0.02};
+    contacts.technique = Technique::raster;
     contacts.resident = true;
     Batch batch;
     const auto handle = batch.add(contacts);
@@ -196,6 +201,7 @@ TEST_F(TargetRefusals, ATooSmallBufferIsAnErrorOfItsQueryAlone) {
     const PenetrationResult alone = run_alone(context(), query);
     query.target = &small;
     ContactQuery contacts{query.a, query.b, query.tolerance, 0.02};
+    contacts.technique = Technique::raster;
     contacts.resident = true;
     contacts.target = &small;
     Batch batch;

@@ -22,7 +22,7 @@ protected:
     void SetUp() override {
         Resident::SetUp();
         gpu_.emplace(host_device());
-        Expected<Context> made = Context::create(host_device(), drawing());
+        Expected<Context> made = Context::create(host_device(), on_demand());
         ASSERT_TRUE(made.has_value()) << made.error().text();
         made_.emplace(std::move(*made));
     }

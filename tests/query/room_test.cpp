@@ -197,7 +197,7 @@ protected:
     }
 
     static Context make(const HostDevice& device) {
-        Expected<Context> made = Context::create(device, drawing());
+        Expected<Context> made = Context::create(device, on_demand());
         EXPECT_TRUE(made.has_value()) << made.error().text();
         return std::move(*made);
     }

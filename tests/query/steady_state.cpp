@@ -30,7 +30,7 @@ Batch frame(ShapeHandle a, ShapeHandle b) {
         batch.add(SeparationQuery{here, apart, 0.08, technique});
         batch.add(ClosestPointQuery{here, apart, 0.08, technique});
     }
-    batch.add(ContactQuery{here, there, 0.08, 0.05, ContactNormals::gradient});
+    batch.add(drawn(ContactQuery{here, there, 0.08, 0.05, ContactNormals::gradient}));
     DistanceFieldQuery field;
     field.b = there;
     field.tolerance = 0.1;
@@ -60,7 +60,7 @@ void SteadyStateTest::SetUp() {
                             created.emplace_back(call.name);
                         }
                     }));
-    Expected<Context> made = Context::create(loader_->host(), drawing({.timestamps = true}));
+    Expected<Context> made = Context::create(loader_->host(), on_demand({.timestamps = true}));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     watched_.emplace(std::move(*made));
     EXPECT_FALSE(created.empty()) << "nothing is counted";

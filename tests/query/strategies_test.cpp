@@ -39,7 +39,7 @@ protected:
         host_->clear_messages();
     }
     static Context make(const Settings& settings) {
-        Expected<Context> made = Context::create(host_->device(), drawing(settings));
+        Expected<Context> made = Context::create(host_->device(), on_demand(settings));
         EXPECT_TRUE(made.has_value()) << made.error().text();
         return std::move(*made);
     }
@@ -352,7 +352,8 @@ TEST_F(MissingStrategies, CountingAloneNeedsNoMemoryForCells) {
         context(),
         {{"A", rectangle({0, 0}, {10, 10})}, {"B", rectangle({5, 5}, {20, 20})}, {}, {}, 0.008});
     IntersectionQuery query = pair.intersection(IntersectionKind::volume_volume);
-    Expected<Context> small = Context::create(host_device(), drawing({.memory_limit = 10U << 20U}));
+    Expected<Context> small =
+        Context::create(host_device(), on_demand({.memory_limit = 10U << 20U}));
     ASSERT_TRUE(small.has_value());
     const PlacedPair in_small(*small, pair.pair());
     query = in_small.intersection(IntersectionKind::volume_volume);

@@ -128,7 +128,7 @@ TEST_F(Tiles, AFieldIsCoveredWhole) {
 }
 
 TEST_F(Tiles, ThereAreNoneWhereNothingIsDrawn) {
-    Expected<Context> fresh = Context::create(host_device(), drawing());
+    Expected<Context> fresh = Context::create(host_device(), on_demand());
     ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
     EXPECT_TRUE(tiles_of(*fresh).empty());
     const Pair pair = family_pairs(seed)[3];

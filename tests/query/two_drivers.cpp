@@ -18,7 +18,7 @@ void make_host(std::optional<test_support::VulkanHost>& host, const std::string&
 }
 
 Context make_context(const HostDevice& device) {
-    Expected<Context> made = Context::create(device, drawing());
+    Expected<Context> made = Context::create(device, on_demand());
     if (!made) {
         throw std::runtime_error(made.error().text());
     }

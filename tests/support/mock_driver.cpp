@@ -97,6 +97,10 @@ void MockDriver::set_queue_families(std::vector<VkQueueFlags> families, std::uin
     state_->family = used;
 }
 
+void MockDriver::set_device_type(VkPhysicalDeviceType type) {
+    state_->device_type = type;
+}
+
 void MockDriver::set_storage_range(std::uint32_t bytes) {
     state_->storage_range = bytes;
 }

@@ -48,6 +48,8 @@ public:
     /// Sets the queue families of the device, by what they can do, and the one of the host's queue.
     /// Default: one that draws and computes.
     void set_queue_families(std::vector<VkQueueFlags> families, std::uint32_t used);
+    /// Sets VkPhysicalDeviceProperties::deviceType. Default: a GPU of its own.
+    void set_device_type(VkPhysicalDeviceType type);
     /// Sets VkPhysicalDeviceLimits::maxStorageBufferRange.
     void set_storage_range(std::uint32_t bytes);
     /// The number of buffers and images so far that were made for several queue families.

@@ -106,6 +106,7 @@ struct MockDriver::State {
     bool timeline_semaphores = false;  // the host enabled them
     std::vector<VkQueueFlags> families{VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT};
     std::uint32_t family = 0;  // the host's
+    VkPhysicalDeviceType device_type = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
     std::uint32_t storage_range = 1U << 30U;
     std::size_t shared_objects = 0;  // buffers and images of several families
     bool headless = false;           // there is no host whose allocator would be used

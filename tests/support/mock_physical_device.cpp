@@ -8,7 +8,7 @@ void perform(Tag_vkGetPhysicalDeviceProperties, VkPhysicalDevice,
              VkPhysicalDeviceProperties* properties) {
     *properties = {};
     properties->apiVersion = VK_API_VERSION_1_1;
-    properties->deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    properties->deviceType = driver().device_type;
     std::strcpy(properties->deviceName, "nearfield mock driver");
     VkPhysicalDeviceLimits& limits = properties->limits;
     limits.maxImageDimension2D = 16384;

@@ -141,17 +141,6 @@ TEST_F(CpuContext, RefusesCallsThatNeedADevice) {
     EXPECT_TRUE(context.run(batch, results).ok()) << "no batch was left in flight";
 }
 
-TEST_F(CpuContext, MeasuresTheOneTechniqueThatItHas) {
-    Settings settings;
-    settings.costs = CostModel{};
-    settings.costs->raster.submission = 7.0;
-    Context context = *Context::create_cpu(settings);
-    const Expected<CostModel> costs = measure_costs(context);
-    ASSERT_TRUE(costs.has_value()) << costs.error().text();
-    EXPECT_EQ(costs->raster.submission, 7.0);
-    EXPECT_GT(costs->cpu.answer.points.query, 0.0);
-}
-
 TEST_F(CpuContext, RefusesBadSettings) {
     Settings settings;
     settings.batches_in_flight = 0;
@@ -236,7 +225,7 @@ TEST_F(TechniqueSettings, PipelinesMadeOnDemandAreInNoTime) {
             std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(each));
         }
     });
-    Context context = *Context::create(device, drawing());
+    Context context = *Context::create(device, on_demand());
     const Shapes shapes(context);
     const auto expect_without = [&](const auto& call) {
         made = 0;
@@ -270,8 +259,7 @@ TEST_F(TechniqueSettings, PipelinesMadeOnDemandAreInNoTime) {
 
 TEST_F(TechniqueSettings, AutomaticChoosesAmongThoseThatAreThere) {
     make_host();
-    const Settings dear = drawing();  // its costs would select the raster
-    Settings settings = dear;
+    Settings settings = on_demand();
     settings.techniques.raster = false;
     Context context = *Context::create(host(), settings);
     const Shapes shapes(context);

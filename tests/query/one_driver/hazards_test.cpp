@@ -29,7 +29,7 @@ protected:
         loader_.emplace(host_.device(), std::move(lies));
         Settings settings;
         settings.batches_in_flight = 1;
-        Expected<Context> made = Context::create(loader_->host(), drawing(settings));
+        Expected<Context> made = Context::create(loader_->host(), on_demand(settings));
         ASSERT_TRUE(made.has_value()) << made.error().text();
         context_.emplace(std::move(*made));
         Random random(23000);

@@ -19,7 +19,7 @@ struct Newer {
 
 class HostStructures : public QueryTest {
 protected:
-    static Status create(const HostDevice& host, const Settings& settings = drawing()) {
+    static Status create(const HostDevice& host, const Settings& settings = on_demand()) {
         return Context::create(host, settings).error();
     }
     static void expect_refused(const Status& status, const std::string& name) {
@@ -68,7 +68,7 @@ TEST_F(HostStructures, OfANewerHostAreTakenWhereItAsksForNothingNew) {
     host.unknown = 1;
     expect_refused(create(host.known), "HostDevice");
 
-    Newer<Settings> settings{drawing()};
+    Newer<Settings> settings{on_demand()};
     settings.known.structure_size = sizeof(settings);
     EXPECT_TRUE(create(host_device(), settings.known).ok());
     settings.unknown = 1;
@@ -84,7 +84,7 @@ TEST_F(HostStructures, OfNoKnownSizeAreRefusedByName) {
         host.structure_size = size;
         expect_refused(create(host), "HostDevice");
     }
-    Settings settings = drawing();
+    Settings settings = on_demand();
     settings.structure_size = 0;
     expect_refused(create(host_device(), settings), "Settings");
     HeadlessOptions options;
@@ -126,7 +126,7 @@ TEST_F(HostStructures, LogTellsWhatIsMadeWhatGrowsAndWhatGoes) {
     HostDevice host = host_device();
     host.log = heard.log();
     {
-        Expected<Context> made = Context::create(host, with_all_pipelines());
+        Expected<Context> made = Context::create(host);
         ASSERT_TRUE(made.has_value()) << made.error().text();
         EXPECT_EQ(heard.count(LogLevel::information, "context on '" + made->device_name()), 1);
         EXPECT_GT(heard.count(LogLevel::information, "pipeline '"), 10);
@@ -137,7 +137,7 @@ TEST_F(HostStructures, LogTellsWhatIsMadeWhatGrowsAndWhatGoes) {
         ASSERT_TRUE(shape.has_value());
         const auto ask = [&](double tolerance) {
             Batch batch;
-            batch.add(IntersectionQuery{{*shape, {}}, {*shape, {}}, tolerance});
+            batch.add(drawn(IntersectionQuery{{*shape, {}}, {*shape, {}}, tolerance}));
             Results results;
             EXPECT_TRUE(made->run(batch, results).ok());
         };

@@ -17,7 +17,7 @@ protected:
     [[nodiscard]] static std::vector<double> answers(const HostDevice& host) {
         Settings settings;
         settings.batches_in_flight = 1;
-        Expected<Context> context = Context::create(host, drawing(settings));
+        Expected<Context> context = Context::create(host, on_demand(settings));
         EXPECT_TRUE(context.has_value()) << context.error().text();
         Random random(7100);
         const ShapeHandle a = *context->add_shape(coast(random, 100, 0.5));

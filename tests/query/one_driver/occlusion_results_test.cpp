@@ -32,7 +32,7 @@ TEST(OcclusionResults, AreWaitedForOnTheDevice) {
         lies.entry_points["vkCmdCopyQueryPoolResults"] =
             reinterpret_cast<PFN_vkVoidFunction>(&copy_results);
         const FakeLoader fake(host.device(), lies);
-        Expected<Context> context = Context::create(fake.host(), drawing());
+        Expected<Context> context = Context::create(fake.host(), on_demand());
         ASSERT_TRUE(context.has_value()) << context.error().text();
         const Expected<ShapeHandle> square = context->add_shape(rectangle({0, 0}, {1, 1}));
         ASSERT_TRUE(square.has_value());
