@@ -57,7 +57,7 @@ vec4 box_of(SearchInstanceData instance) {
                                               : box_of_boxes(shape, frame);
     // Half the reach on either side; the sum rounds once more.
     float grow = rounding * (instance.radius + abs(instance.high.x) + abs(instance.high.y)) +
-                 2.0 * instance.rounding + (0.5 + rounding) * pair_query().reach;
+                 2.0 * instance.box_rounding + (0.5 + rounding) * pair_query().reach;
     return box + instance.high.xyxy + vec4(-grow, -grow, grow, grow);
 }
 

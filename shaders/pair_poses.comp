@@ -69,6 +69,7 @@ void main() {
     doubts.x &= left_by_shape;
     doubts.x |= magnitude > push.farthest ? left_by_place : 0u;
     doubts.y = floatBitsToUint(rounding_of_turn * lever + rounding_of_place * magnitude);
+    doubts.w = doubts.y;
     instances[unit] = floatBitsToUint(vec4(axis, high));
     instances[unit + 1u] = uvec4(floatBitsToUint(low), lengths.zw);
     instances[unit + 3u] = doubts;

@@ -35,7 +35,7 @@ SearchInstanceData instance_at(uint number) {
     uvec4 last = instance_unit(number, 3u);
     return SearchInstanceData(turned.xy, turned.zw, lengths.xy, lengths.z, lengths.w, third.x,
                               third.y, third.z, third.w, last.x, uintBitsToFloat(last.y), last.z,
-                              uint[1](0u));
+                              uintBitsToFloat(last.w));
 }
 
 // The number of the instance at a place in the hierarchy.

@@ -35,8 +35,8 @@ struct SearchInstanceData {
     uint left_to_cpu NEARFIELD_DEFAULT(0);
     // Of its vertices: what is not known to the precision that pairs count on; 0: no matter
     float rounding NEARFIELD_DEFAULT(0.0F);
-    uint element NEARFIELD_DEFAULT(0);  // of the host's poses
-    uint unused[1] NEARFIELD_DEFAULT({});
+    uint element NEARFIELD_DEFAULT(0);           // of the host's poses
+    float box_rounding NEARFIELD_DEFAULT(0.0F);  // of its vertices, whatever pairs count on
 };
 const uint units_of_instance = 4u;
 NEARFIELD_CHECK(sizeof(SearchInstanceData) == 16 * units_of_instance)

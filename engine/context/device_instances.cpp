@@ -97,7 +97,8 @@ void DeviceInstances::place(const world::Instances& instances,
         const auto [place, magnitude] =
             plan::set_place(*shape.polygon, instance.pose, turns[i], origin_, data);
         entry.place = place;
-        data.rounding = has_tolerance ? 0.0F : plan::rounding_at(magnitude);
+        data.box_rounding = plan::rounding_at(magnitude);
+        data.rounding = has_tolerance ? 0.0F : data.box_rounding;
         const bool is_resolved = question_->resolved == 0.0 ||
                                  question_->resolved >= plan::smallest_tolerance(magnitude);
         data.left_to_cpu |= is_resolved ? 0U : plan::left_by_place;

@@ -78,17 +78,15 @@ void DevicePairTableBase::State::start_anew() {
     world_.reset();
 }
 
-/// Whether the pair is one that a PairTable asks about: those in whose boxes only rounding leaves a
-/// gap are not, but the device does not tell them apart.
+/// Whether the pair is one that a PairTable asks about: the boxes of the device are larger.
 bool DevicePairTableBase::State::boxes_meet(const plan::PairRowData& data) const {
-    const auto box_of = [this](std::uint32_t number) {
+    const auto bounds_of = [this](std::uint32_t number) {
         const PairInstance& entry = instances_[number];
-        return geometry::TransformedPolygon(*polygon_of(entry.instance.shape), entry.instance.pose)
-            .box();
+        return localize::bounds_of({*polygon_of(entry.instance.shape), entry.instance.pose});
     };
     // In the same order for both rows of a pair: the sums are rounded.
-    return localize::boxes_meet(box_of(std::min(data.a, data.b)), box_of(std::max(data.a, data.b)),
-                                question_.reach);
+    return localize::may_meet(bounds_of(std::min(data.a, data.b)),
+                              bounds_of(std::max(data.a, data.b)), question_.reach);
 }
 
 /// Whether a pair with this answer of the CPU has a row.

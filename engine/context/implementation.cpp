@@ -130,8 +130,8 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
         return Status(StatusCode::invalid_query, "find_pairs: the reach is " + plan::number(reach) +
                                                      "; it must be a finite number of at least 0");
     }
-    box_origins_.resize(std::max(box_origins_.size(), instances.size()));
-    boxes_.resize(box_origins_.size());
+    bounds_origins_.resize(std::max(bounds_origins_.size(), instances.size()));
+    bounds_.resize(bounds_origins_.size());
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const geometry::Polygon* const polygon = shapes_.find(instances[i].shape);
         Status status = polygon == nullptr
@@ -141,15 +141,15 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
             return Status(status.code(),
                           "find_pairs: instance " + std::to_string(i) + ": " + status.message());
         }
-        if (const BoxOrigin origin{polygon, polygon->revision(), instances[i].pose};
-            !(box_origins_[i] == origin)) {
-            box_origins_[i] = origin;
-            boxes_[i] = geometry::TransformedPolygon(*polygon, instances[i].pose).box();
+        if (const BoundsOrigin origin{polygon, polygon->revision(), instances[i].pose};
+            !(bounds_origins_[i] == origin)) {
+            bounds_origins_[i] = origin;
+            bounds_[i] = localize::bounds_of({*polygon, instances[i].pose});
         }
     }
-    broad_phase_.find(std::span(boxes_).first(instances.size()), reach, box_pairs_);
+    broad_phase_.find(std::span(bounds_).first(instances.size()), reach, near_pairs_);
     instance_pairs_.clear();
-    for (const auto& [first, second] : box_pairs_) {
+    for (const auto& [first, second] : near_pairs_) {
         instance_pairs_.push_back({first, second});
     }
     return std::span<const InstancePair>(instance_pairs_);

@@ -34,13 +34,13 @@ class Context::Implementation {
         batch::BatchRing ring;
     };
 
-    /// What a bounding box was computed from.
-    struct BoxOrigin {
+    /// What bounds were computed from.
+    struct BoundsOrigin {
         const geometry::Polygon* polygon = nullptr;
         std::uint64_t revision = 0;
         Pose pose;
 
-        [[nodiscard]] bool operator==(const BoxOrigin&) const = default;
+        [[nodiscard]] bool operator==(const BoundsOrigin&) const = default;
     };
 
 public:
@@ -134,9 +134,9 @@ private:
     geometry::GatheredRings gathered_rings_;
     localize::BroadPhase broad_phase_;
     // Of the instances of find_pairs(), by position; they stay while their origins do.
-    std::vector<geometry::Box> boxes_;
-    std::vector<BoxOrigin> box_origins_;
-    std::vector<localize::BroadPhase::Pair> box_pairs_;
+    std::vector<localize::Bounds> bounds_;
+    std::vector<BoundsOrigin> bounds_origins_;
+    std::vector<localize::BroadPhase::Pair> near_pairs_;
     std::vector<InstancePair> instance_pairs_;
     std::unique_ptr<Machinery> machinery_;
 #ifdef NEARFIELD_SHADER_RELOAD

@@ -40,8 +40,7 @@ inline void complete(const InstancePairIndex& pair, simd::TransformedInstances& 
 inline void complete_if_near(const InstancePairIndex& pair, simd::TransformedInstances& instances) {
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
-    if (!(is_small(a) && is_small(b)) &&
-        localize::boxes_meet(a.box, b.box, a.rounding + b.rounding)) {
+    if (!(is_small(a) && is_small(b)) && localize::may_meet(a, b)) {
         complete(pair, instances);
     }
 }

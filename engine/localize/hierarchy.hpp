@@ -70,6 +70,26 @@ private:
            a.min().y() - margin <= b.max().y() && b.min().y() <= a.max().y() + margin;
 }
 
+/// Where a shape is at its pose.
+struct Bounds {
+    geometry::Box box;      ///< of the vertices as they are computed
+    double rounding = 0.0;  ///< of these vertices: placement_rounding()
+};
+
+[[nodiscard]] inline Bounds bounds_of(const geometry::TransformedPolygon& polygon) {
+    const geometry::Box box = polygon.box();
+    return {box, placement_rounding(polygon, box)};
+}
+
+/// Whether shapes can be at most `reach` apart, by their boxes. Shapes count as touching up to the
+/// rounding of their vertices, so boxes do as well: whoever looks for pairs of shapes compares
+/// their boxes by this function, or finds all that it would and then calls it, or else has pairs
+/// that another has not. `A` and `B` have a `box` and its `rounding`, as Bounds does.
+template <class A, class B>
+[[nodiscard]] bool may_meet(const A& a, const B& b, double reach = 0.0) {
+    return boxes_meet(a.box, b.box, reach + (a.rounding + b.rounding));
+}
+
 /// True if the bounding volumes of two nodes may be at most `margin` apart, judged by their boxes
 /// and, if both hierarchies have them, their oriented boxes.
 [[nodiscard]] inline bool volumes_meet(const Node& a, const Node& b, double margin,

@@ -42,7 +42,7 @@ bool OverlapTest::intersect(const simd::TransformedEdges& a, const simd::Transfo
 
 bool OverlapTest::intersect_without_vertex_inside(const simd::TransformedEdges& a,
                                                   const simd::TransformedEdges& b) {
-    if (!localize::boxes_meet(a.box, b.box, a.rounding + b.rounding)) {
+    if (!localize::may_meet(a, b)) {
         return false;
     }
     // If the boundaries do not intersect, the shapes overlap only if a whole ring of one lies

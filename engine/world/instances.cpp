@@ -143,8 +143,7 @@ void Instances::place(std::uint32_t index) {
     const Pose& pose = entries_[index].instance.pose;
     const TransformedPolygon placed(*kept.polygon, pose);
     kept.revision = kept.polygon->revision();
-    bounds.box = placed.box();
-    bounds.rounding = localize::placement_rounding(placed, bounds.box);
+    static_cast<localize::Bounds&>(bounds) = localize::bounds_of(placed);
     bounds.magnitude = geometry::largest_magnitude(placed, pose, bounds.box);
     max_rounding_ = std::max(max_rounding_, bounds.rounding);
     boxes_.set(index, bounds.box);

@@ -104,6 +104,9 @@ public:
     /// Changes with the pose, the shape's rings and the filter: larger than at any earlier time.
     [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return changed_[index]; }
     [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
+    [[nodiscard]] const localize::Bounds& bounds(std::uint32_t index) const {
+        return bounds_[index];
+    }
     [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return bounds_[index].box; }
     /// Of its transformed vertices: localize::placement_rounding.
     [[nodiscard]] double rounding(std::uint32_t index) const { return bounds_[index].rounding; }
@@ -130,9 +133,7 @@ public:
 
     /// Whether two instances can share a point, by their boxes.
     [[nodiscard]] bool boxes_meet(std::uint32_t a, std::uint32_t b) const {
-        const Bounds& one = bounds_[a];
-        const Bounds& other = bounds_[b];
-        return localize::boxes_meet(one.box, other.box, one.rounding + other.rounding);
+        return localize::may_meet(bounds_[a], bounds_[b]);
     }
     /// Whether they share a point.
     [[nodiscard]] bool intersect(std::uint32_t a, std::uint32_t b,
@@ -152,10 +153,8 @@ private:
         bool present = false;
         bool is_changed = false;  // listed in changes_
     };
-    // Where an instance is.
-    struct Bounds {
-        geometry::Box box;  // empty, and so meets none, if its shape was removed
-        double rounding = 0.0;
+    // Where an instance is. The box is empty, and so meets none, if its shape was removed.
+    struct Bounds : localize::Bounds {
         double magnitude = 0.0;
     };
     // What is kept of it besides.

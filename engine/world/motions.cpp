@@ -26,13 +26,13 @@ void Motions::place(std::uint32_t index, const Instances& instances) {
         return;
     }
     const Pose& start = instances[index].pose;
-    entry.box = entry.end == start
-                    ? geometry::grown(instances.box(index), instances.rounding(index))
-                    : toi::swept_box({instances.polygon(index), start, entry.end});
-    const double largest = std::max(entry.box.min().lpNorm<Eigen::Infinity>(),
-                                    entry.box.max().lpNorm<Eigen::Infinity>());
+    geometry::Box& box = entry.bounds.box;
+    box = entry.end == start ? geometry::grown(instances.box(index), instances.rounding(index))
+                             : toi::swept_box({instances.polygon(index), start, entry.end});
+    const double largest =
+        std::max(box.min().lpNorm<Eigen::Infinity>(), box.max().lpNorm<Eigen::Infinity>());
     max_rounding_ = std::max(max_rounding_, 8.0 * std::numeric_limits<double>::epsilon() * largest);
-    boxes_.set(index, entry.box);
+    boxes_.set(index, box);
 }
 
 void Motions::update(const Instances& instances, std::span<const InstanceHandle> moving,

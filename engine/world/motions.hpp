@@ -25,9 +25,10 @@ public:
         return entries_[index].has_changed;
     }
     [[nodiscard]] const Pose& end(std::uint32_t index) const { return entries_[index].end; }
-    /// Contains the instance throughout its motion, with its rounding.
-    [[nodiscard]] const geometry::Box& box(std::uint32_t index) const {
-        return entries_[index].box;
+    /// Contain the instance throughout its motion, with the rounding of its vertices: no more of it
+    /// is left to whoever compares boxes.
+    [[nodiscard]] const localize::Bounds& bounds(std::uint32_t index) const {
+        return entries_[index].bounds;
     }
     [[nodiscard]] const BoxHierarchy& boxes() const { return boxes_; }
     /// More than the rounding of any coordinate of a box.
@@ -36,7 +37,7 @@ public:
 private:
     struct Entry {
         Pose end;
-        geometry::Box box;
+        localize::Bounds bounds;
         std::uint32_t generation = 0;
         bool is_known = false;
         bool has_changed = false;

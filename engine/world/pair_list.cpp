@@ -38,9 +38,9 @@ void PairList::find_changed(const Instances& instances) {
 template <class Boxes>
 void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, const Boxes& boxes,
                              double reach, bool both_ways) {
-    const geometry::Box& box = boxes.box(index);
-    // Slightly more, for the rounding of what is compared below.
-    const geometry::Box search = geometry::grown(box, reach * (1.0 + 1e-9) + boxes.max_rounding());
+    // Slightly more than the margin of any pair, for the rounding of what is compared below.
+    const geometry::Box search =
+        geometry::grown(boxes.bounds(index).box, reach * (1.0 + 1e-9) + 3.0 * boxes.max_rounding());
     boxes.boxes().for_meeting(search, [&](std::uint32_t other) {
         const bool is_found_twice =
             has_changed_[other] != 0 && instances.number(other) < instances.number(index);
@@ -50,7 +50,7 @@ void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, co
         const bool is_first = instances.number(index) < instances.number(other);
         const std::uint32_t first = is_first ? index : other;
         const std::uint32_t second = is_first ? other : index;
-        if (!localize::boxes_meet(boxes.box(first), boxes.box(second), reach)) {
+        if (!localize::may_meet(boxes.bounds(first), boxes.bounds(second), reach)) {
             return;
         }
         found_.push_back({first, second, none});

@@ -69,8 +69,7 @@ void PoseQueries::find_candidates(const TransformedPolygon& placed) {
 }
 
 bool PoseQueries::intersects(std::uint32_t index) {
-    const geometry::Box& box = instances_->box(index);
-    if (!localize::boxes_meet(edges().box, box, edges().rounding + instances_->rounding(index))) {
+    if (!localize::may_meet(edges(), instances_->bounds(index))) {
         return false;
     }
     const simd::TransformedEdges& other = instances_->edges(index);

@@ -190,10 +190,11 @@ public:
     Status remove_shape(ShapeHandle shape);
 
     /// Broad phase: the pairs of instances whose bounding boxes are at most `reach` apart along
-    /// both axes (world units, >= 0; 0: the closed boxes overlap), in ascending order. The time
-    /// grows with the number of instances and of pairs found. The pairs are borrowed from the
-    /// context, which keeps their memory, until the next call. Fails with invalid_query (the reach
-    /// or a pose), unknown_shape or out_of_memory.
+    /// both axes (world units, >= 0; 0: the closed boxes overlap), up to the rounding of their
+    /// vertices, as shapes touch up to that; in ascending order. The time grows with the number of
+    /// instances and of pairs found. The pairs are borrowed from the context, which keeps their
+    /// memory, until the next call. Fails with invalid_query (the reach or a pose), unknown_shape
+    /// or out_of_memory.
     [[nodiscard]] Expected<std::span<const InstancePair>> find_pairs(
         std::span<const Instance> instances, double reach);
 

@@ -19,8 +19,9 @@ namespace nearfield {
 /// The pairs of a world that a PairTable asks about.
 struct PairSelection {
     /// Pairs of instances whose bounding boxes are at most this far apart along both axes are
-    /// candidates: world units, >= 0; 0: the closed boxes overlap. The contact distance of a query
-    /// that has one counts if it is larger. Filters apply (WorldInstance).
+    /// candidates: world units, >= 0; 0: the closed boxes overlap. Up to the rounding of their
+    /// vertices: shapes touch up to that, and no touching pair is lost. The contact distance of a
+    /// query that has one counts if it is larger. Filters apply (WorldInstance).
     double reach = 0.0;
     /// True: the table has only the pairs that are hit: a contact or penetrating point was found,
     /// or the shapes intersect or, for separations and closest points, are at most `reach` apart;

@@ -111,6 +111,25 @@ TEST_F(TimeOfImpactCommand, AsksAllPairsOfASceneThatMayMeetOnTheWay) {
     EXPECT_TRUE(far);
 }
 
+/// Two vertices come to the same place at the end, up to rounding: boxes must not lose the pair.
+TEST_F(TimeOfImpactCommand, AsksPairsThatOnlyTouchAtTheEnd) {
+    const auto results_of = [this](const std::string& pair) {
+        return answer({"scene", folder_.write("scene.json", R"({
+            "shapes": {"still": {"rings": [[[8, 2], [3, 1], [-1, 2]]]},
+                       "moving": {"rings": [[[0, 0], [8, 0], [7, 1]]]}},
+            "instances": {"A": {"shape": "still", "pose": [26, 4, 0]},
+                          "B": {"shape": "moving", "pose": [60, 7, 180],
+                                "end_pose": [41, 7, 180]}},
+            "queries": [{"query": "time-of-impact", "tolerance": 1e-6, )" +
+                                                                pair + "}]}")})
+            .at("results");
+    };
+    const Json alone = results_of(R"("a": "A", "b": "B")");
+    ASSERT_EQ(alone.size(), 1U);
+    EXPECT_EQ(alone.at(0).at("state"), "hit");
+    EXPECT_EQ(results_of(R"("pairs": "all")"), alone);
+}
+
 class SeparationVectorCommand : public CliTest {};
 
 TEST_F(SeparationVectorCommand, SaysHowFarToGo) {

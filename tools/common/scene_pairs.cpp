@@ -21,12 +21,15 @@ bool is_symmetric(QueryType type) {
            type == QueryType::time_of_impact || type == QueryType::separation_vector;
 }
 
-/// A box that contains a shape throughout its motion from its pose to its end pose.
+/// A box that contains a shape throughout its motion from its pose to its end pose, however its
+/// vertices are rounded: shapes that touch but for rounding count as touching.
 Rectangle swept_box(const SceneShape& shape, const SceneInstance& instance) {
     const Pose& start = instance.pose;
     const Pose end = instance.end_pose.value_or(start);
     constexpr double none = std::numeric_limits<double>::infinity();
     Rectangle box{{none, none}, {-none, -none}};
+    double farthest = 0.0;   // vertex from the origin of the coordinates
+    double magnitude = 0.0;  // of where this is
     const auto hold = [&box](Vector2 origin, Vector2 low, Vector2 high) {
         box.min = {std::min(box.min.x, origin.x + low.x), std::min(box.min.y, origin.y + low.y)};
         box.max = {std::max(box.max.x, origin.x + high.x), std::max(box.max.y, origin.y + high.y)};
@@ -43,8 +46,15 @@ Rectangle swept_box(const SceneShape& shape, const SceneInstance& instance) {
             const Vector2 high = turns ? Vector2{radius, radius} : arm;
             hold(start.translation, low, high);
             hold(end.translation, low, high);
+            farthest = std::max(farthest, radius);
         }
     }
+    for (const Vector2& origin : {start.translation, end.translation}) {
+        magnitude = std::max({magnitude, std::abs(origin.x), std::abs(origin.y)});
+    }
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * (magnitude + farthest);
+    box.min = {box.min.x - rounding, box.min.y - rounding};
+    box.max = {box.max.x + rounding, box.max.y + rounding};
     return box;
 }
 
