@@ -24,22 +24,6 @@ constexpr std::uint64_t near_side = 64;
 /// At most this many edges are tested at every cell without further culling.
 constexpr std::uint32_t few_edges = 6;
 
-/// Edges shorter than this, in cells, count as points: division by their squared length would
-/// overflow single precision.
-constexpr double shortest_edge = 1e-12;
-
-void add_edge(const Vector& start, const Vector& end, std::uint32_t index, EdgeList& list) {
-    const Vector along = end - start;
-    const double squared = along.squaredNorm();
-    const bool is_point = squared < shortest_edge * shortest_edge;
-    const double inverse = is_point ? 0.0 : 1.0 / squared;
-    const double length = is_point ? 0.0 : 1.0;
-    list.push({static_cast<float>(start.x()), static_cast<float>(start.y()),
-               static_cast<float>(length * along.x()), static_cast<float>(length * along.y()),
-               static_cast<float>(along.x() * inverse), static_cast<float>(along.y() * inverse)},
-              index);
-}
-
 /// Calls `use(start, end)` for every edge, with the indices of its vertices.
 template <class Use>
 void for_own_edges(const Polygon& shape, const Use& use) {
@@ -142,7 +126,7 @@ void FieldSolver::make_far_list() {
     for (const Ends& edge : edges_) {
         const Vector start = edge.start - far_origin_;
         farthest = std::max(farthest, start.cwiseAbs().maxCoeff());
-        add_edge(start, edge.end - far_origin_, static_cast<std::uint32_t>(all.size()), all);
+        push_edge(start, edge.end - far_origin_, static_cast<std::uint32_t>(all.size()), all);
     }
     far_slack_ = std::ldexp(farthest, -18);
 }
@@ -206,7 +190,7 @@ void FieldSolver::make_near_list(const Square& square, const EdgeList& far, doub
         Vector end = edges_[edge].end - near_origin_;
         if (geometry::clip_to_slab(start, end, 0, -across, across) &&
             geometry::clip_to_slab(start, end, 1, -up, up)) {
-            add_edge(start, end, edge, near);
+            push_edge(start, end, edge, near);
         }
     }
 }

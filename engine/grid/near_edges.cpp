@@ -11,7 +11,7 @@
 #define HWY_TARGET_INCLUDE "engine/grid/near_edges.cpp"
 // clang-format off
 #include <hwy/foreach_target.h>
-#include <engine/geometry/float_arrays-inl.hpp>
+#include <engine/geometry/edge_list-inl.hpp>
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -19,78 +19,19 @@ namespace nearfield::grid::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using geometry::HWY_NAMESPACE::copy_kept;
-
 // A block has 64 cells: no vector is longer.
 using Floats = hn::CappedTag<float, 16>;
 using Words = hn::RebindToUnsigned<Floats>;
 using Vector = hn::Vec<Floats>;
+using Away = geometry::HWY_NAMESPACE::Away<Floats>;
 
 constexpr std::size_t cells = std::size_t{block_side} * block_side;
-
-/// The vector to a point from the nearest point of an edge.
-struct Away {
-    Vector x;
-    Vector y;
-
-    [[nodiscard]] HWY_INLINE Vector squared() const {
-        return hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-    }
-};
-
-HWY_INLINE Away away_from(Vector to_x, Vector to_y, Vector along_x, Vector along_y,
-                          Vector inverse_x, Vector inverse_y) {
-    const Floats d;
-    Vector parameter = hn::Add(hn::Mul(to_x, inverse_x), hn::Mul(to_y, inverse_y));
-    parameter = hn::Min(hn::Max(parameter, hn::Zero(d)), hn::Set(d, 1.0F));
-    return {hn::Sub(to_x, hn::Mul(parameter, along_x)), hn::Sub(to_y, hn::Mul(parameter, along_y))};
-}
 
 /// From one edge to several points.
 HWY_INLINE Away away_from_edge(const EdgeList& edges, std::size_t i, Vector x, Vector y) {
     const Floats d;
     const auto number = [&](std::size_t which) { return hn::Set(d, edges.number(which)[i]); };
-    return away_from(hn::Sub(x, number(EdgeList::start_x)), hn::Sub(y, number(EdgeList::start_y)),
-                     number(EdgeList::along_x), number(EdgeList::along_y),
-                     number(EdgeList::inverse_x), number(EdgeList::inverse_y));
-}
-
-/// Writes the squared distance of every edge from a point and returns the least.
-float squared_distances(const EdgeList& edges, float x, float y, float* squared) {
-    const Floats d;
-    const Vector infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-    Vector least = infinity;
-    for (std::size_t i = 0; i < edges.size(); i += hn::Lanes(d)) {
-        const auto number = [&](std::size_t which) {
-            return hn::LoadU(d, edges.number(which) + i);
-        };
-        Vector distance = away_from(hn::Sub(hn::Set(d, x), number(EdgeList::start_x)),
-                                    hn::Sub(hn::Set(d, y), number(EdgeList::start_y)),
-                                    number(EdgeList::along_x), number(EdgeList::along_y),
-                                    number(EdgeList::inverse_x), number(EdgeList::inverse_y))
-                              .squared();
-        // Lanes beyond the last edge are arbitrary.
-        distance = hn::IfThenElse(hn::FirstN(d, edges.size() - i), distance, infinity);
-        hn::StoreU(distance, d, squared + i);
-        least = hn::Min(least, distance);
-    }
-    return hn::GetLane(hn::MinOfLanes(d, least));
-}
-
-float select_near(const EdgeList& from, const Disc& disc, float slack, float* squared,
-                  EdgeList& to) {
-    const Floats d;
-    const float least = std::sqrt(squared_distances(from, disc.x, disc.y, squared));
-    // The edge nearest to the centre is at most one radius farther from any point of the disc; an
-    // edge nearer than that to some point is at most one more radius farther from the centre.
-    const float reach = least + 2.0F * disc.radius + slack + least * 0x1p-17F;
-    const Vector limit = hn::Set(d, reach * reach);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < from.size(); i += hn::Lanes(d)) {
-        count += copy_kept(d, from, i, hn::Le(hn::LoadU(d, squared + i), limit), to, count);
-    }
-    to.resize(count);
-    return least;
+    return geometry::HWY_NAMESPACE::away_from(d, number, x, y);
 }
 
 /// The columns and rows of a block's cells, row by row.
@@ -304,17 +245,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nearfield::grid {
 
-HWY_EXPORT(select_near);
 HWY_EXPORT(solve_block);
 
 float select_near(const EdgeList& from, const Disc& disc, float slack, std::vector<float>& squared,
                   EdgeList& to) {
+    squared.resize(std::max(squared.size(), from.capacity()));
+    const float least =
+        std::sqrt(geometry::measure_squared(from, 0, from.size(), disc.x, disc.y, squared.data()));
+    // The edge nearest to the centre is at most one radius farther from any point of the disc; an
+    // edge nearer than that to some point is at most one more radius farther from the centre.
+    const float reach = least + 2.0F * disc.radius + slack + least * 0x1p-17F;
     to.clear();
-    to.reserve(from.size());
-    if (squared.size() < from.capacity()) {
-        squared.resize(from.capacity());
-    }
-    return HWY_DYNAMIC_DISPATCH(select_near)(from, disc, slack, squared.data(), to);
+    geometry::push_within(from, 0, from.size(), squared.data(), reach * reach, to);
+    return least;
 }
 
 float solve_block(const EdgeList& edges, const Block& block, BlockScratch& scratch) {

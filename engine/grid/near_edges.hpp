@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/geometry/edge_list_kernels.hpp>
 #include <engine/geometry/float_arrays.hpp>
 
 #include <cstddef>
@@ -12,18 +13,7 @@
 
 namespace nearfield::grid {
 
-/// Edges that may be near.
-class EdgeList : public geometry::FloatArrays<6> {
-public:
-    enum Number : std::uint8_t {
-        start_x,
-        start_y,
-        along_x,  ///< from the start to the end
-        along_y,
-        inverse_x,  ///< the same divided by its squared length; 0 for zero length
-        inverse_y,
-    };
-};
+using geometry::EdgeList;
 
 /// A disc around the centres of some cells.
 struct Disc {

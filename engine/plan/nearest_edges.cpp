@@ -1,4 +1,5 @@
 #include <engine/base/interruption.hpp>
+#include <engine/geometry/clip.hpp>
 #include <engine/geometry/quarters.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/plan/nearest_edges.hpp>
@@ -10,7 +11,23 @@
 
 namespace nearfield::plan {
 
+using geometry::EdgeList;
 using geometry::Vector;
+
+namespace {
+
+/// Pushes the part of an edge that lies within `window` of the origin along both axes, so that the
+/// rounding error of a distance in floats depends on the window and not on how far the edge
+/// reaches. Along an axis where it lies wholly beyond the window, an edge is not cut. Returns the
+/// squared length of the part, 0 for an edge of no length.
+double push_part(Vector start, Vector end, double window, std::uint32_t index, EdgeList& edges) {
+    for (const int axis : {0, 1}) {
+        static_cast<void>(geometry::clip_to_slab(start, end, axis, -window, window));
+    }
+    return push_edge(start, end, index, edges);
+}
+
+}  // namespace
 
 void NearestEdgeFinder::find(const TileBoundary& boundary, const NeededBlocks& needed, double slack,
                              std::vector<NearestEdge>& result) {
@@ -82,7 +99,8 @@ void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint
         reach_out(first, end, x, y, limit, half_diagonal, distance + half_diagonal + slack_);
         return;
     }
-    push_within(candidates_, first, end, squared_.data(), static_cast<float>(limit * limit));
+    push_within(candidates_, first, end, squared_.data(), static_cast<float>(limit * limit),
+                candidates_);
     const std::size_t kept_end = candidates_.size();
     const std::uint32_t half = count / 2;
     geometry::for_quarters(column, row, half,
@@ -94,16 +112,17 @@ void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint
 
 void NearestEdgeFinder::reach_out(std::size_t first, std::size_t end, float x, float y,
                                   double limit, double half_diagonal, double reach) {
-    push_within(candidates_, first, end, squared_.data(), static_cast<float>(limit * limit));
+    push_within(candidates_, first, end, squared_.data(), static_cast<float>(limit * limit),
+                candidates_);
     const auto wide = static_cast<float>(half_diagonal + slack_);
     // Without branches: no processor can predict the side.
     for (std::size_t i = end; i < candidates_.size(); ++i) {
         const std::uint32_t index = candidates_.indices()[i];
         // Distance of the centre to the left of the edge's line; an edge of no length has no side.
-        const float left = (candidates_.number(EdgeStack::along_x)[i] *
-                                (y - candidates_.number(EdgeStack::start_y)[i]) -
-                            candidates_.number(EdgeStack::along_y)[i] *
-                                (x - candidates_.number(EdgeStack::start_x)[i])) *
+        const float left = (candidates_.number(EdgeList::along_x)[i] *
+                                (y - candidates_.number(EdgeList::start_y)[i]) -
+                            candidates_.number(EdgeList::along_y)[i] *
+                                (x - candidates_.number(EdgeList::start_x)[i])) *
                            inverse_length_[index];
         reach_left_[index] = std::max(reach_left_[index], left > -wide ? reach : 0.0);
         reach_right_[index] = std::max(reach_right_[index], left < wide ? reach : 0.0);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/plan/edge_stack.hpp>
+#include <engine/geometry/edge_list_kernels.hpp>
 #include <engine/plan/needed_blocks.hpp>
 #include <engine/plan/tile_edges.hpp>
 
@@ -42,8 +42,8 @@ private:
     double slack_ = 0.0;
     std::vector<TileEdge> near_;  // all that can matter somewhere in the tile, in ring order
     // Edges, cut to their parts near the tile, relative to its centre; indices are into near_.
-    EdgeStack candidates_;               // one list per level
-    std::vector<float> squared_;         // by place on the stack: squared distance to the centre
+    geometry::EdgeList candidates_;      // one list per level, a stack of them
+    std::vector<float> squared_;         // by place among them: squared distance to the centre
     std::vector<float> inverse_length_;  // by near edge; 0 for an edge of no length
     std::vector<double> reach_left_;     // by near edge
     std::vector<double> reach_right_;
