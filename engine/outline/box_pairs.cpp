@@ -1,3 +1,4 @@
+#include <engine/geometry/morton.hpp>
 #include <engine/outline/box_pairs.hpp>
 
 #include <algorithm>
@@ -7,27 +8,17 @@
 namespace nearfield::outline {
 namespace {
 
-/// The lower 16 bits, with a zero before each.
-std::uint32_t spread(std::uint32_t bits) {
-    bits &= 0xFFFFU;
-    bits = (bits | (bits << 8U)) & 0x00FF00FFU;
-    bits = (bits | (bits << 4U)) & 0x0F0F0F0FU;
-    bits = (bits | (bits << 2U)) & 0x33333333U;
-    return (bits | (bits << 1U)) & 0x55555555U;
-}
-
 std::vector<std::uint32_t> morton_order(std::span<const geometry::Box> boxes) {
     geometry::Box all;
     for (const geometry::Box& box : boxes) {
         all.extend(box.center());
     }
-    const geometry::Vector scale = 65535.0 * all.sizes().cwiseMax(1e-300).cwiseInverse();
+    const geometry::Vector scale = all.sizes().cwiseMax(1e-300).cwiseInverse();
     std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
     codes.reserve(boxes.size());
     for (const geometry::Box& box : boxes) {
         const geometry::Vector place = (box.center() - all.min()).cwiseProduct(scale);
-        codes.emplace_back(spread(static_cast<std::uint32_t>(place.x())) |
-                               (spread(static_cast<std::uint32_t>(place.y())) << 1U),
+        codes.emplace_back(geometry::on_morton_curve(place.x(), place.y()),
                            static_cast<std::uint32_t>(codes.size()));
     }
     std::sort(codes.begin(), codes.end());

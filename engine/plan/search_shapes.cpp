@@ -1,3 +1,4 @@
+#include <engine/geometry/morton.hpp>
 #include <engine/plan/edge_sampler.hpp>
 #include <engine/plan/search_shapes.hpp>
 
@@ -38,21 +39,12 @@ std::uint32_t chunks_for(std::uint32_t edges) {
     return (edges + chunk_size - 1) / chunk_size;
 }
 
-/// Moves bits 0, 1, ... 15 to bits 0, 2, ... 30.
-std::uint32_t spread_bits(std::uint32_t bits) {
-    bits = (bits | bits << 8U) & 0x00ff00ffU;
-    bits = (bits | bits << 4U) & 0x0f0f0f0fU;
-    bits = (bits | bits << 2U) & 0x33333333U;
-    return (bits | bits << 1U) & 0x55555555U;
-}
-
 /// The place on a Morton curve of a point whose coordinates are at most `extent`.
 std::uint32_t on_morton_curve(const Vector& point, double extent) {
-    const auto cell_of = [extent](double coordinate) {
-        const double part = extent > 0.0 ? 0.5 + 0.5 * coordinate / extent : 0.0;
-        return static_cast<std::uint32_t>(std::clamp(65536.0 * part, 0.0, 65535.0));
+    const auto part_of = [extent](double coordinate) {
+        return extent > 0.0 ? 0.5 + 0.5 * coordinate / extent : 0.0;
     };
-    return spread_bits(cell_of(point.x())) | spread_bits(cell_of(point.y())) << 1U;
+    return geometry::on_morton_curve(part_of(point.x()), part_of(point.y()));
 }
 
 }  // namespace

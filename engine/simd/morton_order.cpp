@@ -1,6 +1,6 @@
+#include <engine/geometry/morton.hpp>
 #include <engine/simd/morton_order.hpp>
 
-#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -10,30 +10,23 @@ namespace {
 using geometry::Box;
 using geometry::Vector;
 
-/// Moves bits 0, 1, ... 7 to bits 0, 2, ... 14.
-std::uint32_t spread_bits(std::uint32_t bits) {
-    bits = (bits | bits << 4U) & 0x0f0fU;
-    bits = (bits | bits << 2U) & 0x3333U;
-    return (bits | bits << 1U) & 0x5555U;
+double part_of(double from_low, double length) {
+    return length > 0.0 ? from_low / length : 0.0;
 }
 
 }  // namespace
 
 std::span<const std::uint32_t> MortonOrder::find(const geometry::Polygon& polygon,
                                                  const EdgeArrays& edges, const Box& box) {
-    // Morton order on 256 x 256 cells. Smaller coordinate differences are ignored.
-    constexpr double cells = 256.0;
     const Vector size = box.sizes();
-    const auto cell_of = [&](double from_low, double length) {
-        const double part = length > 0.0 ? from_low / length : 0.0;
-        return static_cast<std::uint32_t>(std::clamp(cells * part, 0.0, cells - 1.0));
-    };
     on_curve_.resize(polygon.ring_count());
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
         const std::uint32_t edge = polygon.ring_begin(ring);
-        const std::uint32_t column = cell_of(edges.start_x[edge] - box.min().x(), size.x());
-        const std::uint32_t row = cell_of(edges.start_y[edge] - box.min().y(), size.y());
-        on_curve_[ring] = static_cast<std::uint16_t>(spread_bits(column) | spread_bits(row) << 1U);
+        const std::uint32_t place =
+            geometry::on_morton_curve(part_of(edges.start_x[edge] - box.min().x(), size.x()),
+                                      part_of(edges.start_y[edge] - box.min().y(), size.y()));
+        // Of 256 x 256 cells: smaller differences are ignored.
+        on_curve_[ring] = static_cast<std::uint16_t>(place >> 16U);
     }
     rings_.resize(polygon.ring_count());
     std::iota(rings_.begin(), rings_.end(), 0U);
