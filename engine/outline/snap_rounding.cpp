@@ -1,4 +1,5 @@
 #include <engine/base/status_exception.hpp>
+#include <engine/geometry/whole.hpp>
 #include <engine/outline/box_pairs.hpp>
 #include <engine/outline/exact_kernels.hpp>
 #include <engine/outline/snap_rounding.hpp>
@@ -29,15 +30,9 @@ struct Passage {
     Cell cell;
 };
 
-/// The largest integer that is no larger than value.
-std::int64_t floor_of(double value) {
-    const auto whole = static_cast<std::int64_t>(value);
-    return static_cast<double>(whole) > value ? whole - 1 : whole;
-}
-
 std::int64_t nearest_integer(double value) {
-    const std::int64_t below = floor_of(value);
-    return value - static_cast<double>(below) >= 0.5 ? below + 1 : below;
+    const double below = geometry::whole_below(value);
+    return static_cast<std::int64_t>(value - below >= 0.5 ? below + 1.0 : below);
 }
 
 int sign_of_difference(double first, double second) {
