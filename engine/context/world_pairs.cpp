@@ -3,20 +3,14 @@
 #include <engine/context/pair_table_state.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
+#include <engine/plan/pair_question.hpp>
 
 #include <algorithm>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 namespace nearfield {
 namespace {
-
-/// Queries whose answer is the same with the shapes swapped have one row per pair.
-template <class Query>
-constexpr bool is_symmetric =
-    std::is_same_v<Query, SeparationQuery> || std::is_same_v<Query, IntersectionTestQuery> ||
-    std::is_same_v<Query, TimeOfImpactQuery>;
 
 /// How far apart the boxes of a pair may be.
 template <class Query>
@@ -229,8 +223,9 @@ void World::Implementation::update(PairTable<Query>& table, const FindPairs& fin
 
 template <class Query>
 void World::Implementation::update(PairTable<Query>& table) {
-    update(table,
-           [&] { table.state_->list.update(instances_, reach_of(table), !is_symmetric<Query>); });
+    update(table, [&] {
+        table.state_->list.update(instances_, reach_of(table), !plan::is_symmetric<Query>);
+    });
 }
 
 void World::Implementation::update(PairTable<TimeOfImpactQuery>& table,

@@ -7,22 +7,24 @@ namespace nearfield::plan {
 namespace {
 
 template <class Query>
-PairQuestion near_question(const Query& query, double reach, bool is_once) {
-    return {
-        .goal = PairGoal::tests, .resolved = query.tolerance, .reach = reach, .is_once = is_once};
+PairQuestion near_question(const Query& query, double reach) {
+    return {.goal = PairGoal::tests,
+            .resolved = query.tolerance,
+            .reach = reach,
+            .is_once = is_symmetric<Query>};
 }
 
 }  // namespace
 
 PairQuestion pair_question(const AnyQuery& query, double reach) {
     if (std::holds_alternative<IntersectionTestQuery>(query)) {
-        return {.goal = PairGoal::tests, .is_once = true};
+        return {.goal = PairGoal::tests, .is_once = is_symmetric<IntersectionTestQuery>};
     }
     if (const auto* const separation = std::get_if<SeparationQuery>(&query)) {
-        return near_question(*separation, reach, true);
+        return near_question(*separation, reach);
     }
     if (const auto* const closest = std::get_if<ClosestPointQuery>(&query)) {
-        return near_question(*closest, reach, false);
+        return near_question(*closest, reach);
     }
     if (const auto* const contacts = std::get_if<ContactQuery>(&query)) {
         return {.goal = PairGoal::contacts,

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 namespace nearfield::plan {
 
@@ -35,6 +36,12 @@ inline constexpr std::array<PairSearchKind, 5> pair_search_kinds{
      {PairGoal::penetrations, FoundPoints::packed},
      {PairGoal::contacts, FoundPoints::packed},
      {PairGoal::tests, FoundPoints::compared}}};
+
+/// Queries whose answer is the same with the shapes swapped: all pairs of a world have one row.
+template <class Query>
+inline constexpr bool is_symmetric =
+    std::is_same_v<Query, SeparationQuery> || std::is_same_v<Query, IntersectionTestQuery> ||
+    std::is_same_v<Query, TimeOfImpactQuery>;
 
 /// What a query asks of the device about every pair of a world's instances. World units.
 struct PairQuestion {
