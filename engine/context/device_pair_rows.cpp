@@ -1,117 +1,16 @@
-// How the rows of a table of pairs that the device found are read.
+// How the rows of pairs that the device found are read.
 
-#include <engine/base/catch_to_status.hpp>
-#include <engine/context/device_pair_state.hpp>
-#include <engine/context/world_checks.hpp>
+#include <engine/context/device_pairs.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/point_search.hpp>
 
 #include <algorithm>
-#include <string>
 #include <utility>
 #include <variant>
 
 namespace nearfield {
 
-DevicePairTableBase::DevicePairTableBase(const AnyQuery& query, double reach)
-    : state_(std::make_unique<State>(query, reach)) {}
-DevicePairTableBase::~DevicePairTableBase() = default;
-DevicePairTableBase::DevicePairTableBase(DevicePairTableBase&&) noexcept = default;
-DevicePairTableBase& DevicePairTableBase::operator=(DevicePairTableBase&&) noexcept = default;
-
-std::uint32_t DevicePairTableBase::size() const noexcept {
-    return state_->rows;
-}
-
-std::uint32_t DevicePairTableBase::candidates() const noexcept {
-    return state_->candidates();
-}
-
-std::uint32_t DevicePairTableBase::left_to_cpu() const noexcept {
-    return state_->left_to_cpu();
-}
-
-const Timings& DevicePairTableBase::timings() const noexcept {
-    return state_->timings;
-}
-
-Expected<ResidentPairs> DevicePairTableBase::resident() const {
-    ResidentPairs pairs;
-    Status status = catch_to_status([&] { pairs = state_->resident(); });
-    return status.ok() ? Expected<ResidentPairs>(pairs) : status;
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, PairRow<PenetrationQuery>& row) {
-    return catch_to_status([&] { state_->row(index, row); });
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, PairRow<ContactQuery>& row) {
-    return catch_to_status([&] { state_->row(index, row); });
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
-    return catch_to_status([&] { state_->row(index, row); });
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, PairRow<ClosestPointQuery>& row) {
-    return catch_to_status([&] { state_->row(index, row); });
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, PairRow<SeparationQuery>& row) {
-    return catch_to_status([&] { state_->row(index, row); });
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, std::vector<PenetrationRecord>& records) {
-    return catch_to_status([&] { state_->records(index, records); });
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, std::vector<ContactRecord>& records) {
-    return catch_to_status([&] { state_->records(index, records); });
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, std::vector<NoRecord>& records) {
-    return catch_to_status([&] { state_->records(index, records); });
-}
-
-Status DevicePairTableBase::read(std::uint32_t index, std::vector<ContactCluster>& manifold) {
-    return catch_to_status([&] { state_->manifold(index, manifold); });
-}
-
-DevicePairTableBase::State::State(const AnyQuery& query, double reach)
-    : query_(query), question_(plan::pair_question(query, reach)) {
-    plan_.queries.resize(2);
-}
-
-DevicePairTableBase::State::~State() {
-    if (context_ != nullptr) {
-        report_open_frame();
-        set_submitted(false);
-        instances_.clear(&context_->shapes());
-    }
-}
-
-ResidentPairs DevicePairTableBase::State::resident() const {
-    if (!question_.resident) {
-        refuse("resident", "the table's query does without results that stay on the device");
-    }
-    if (buffers_ == nullptr || instances_.size() < 2) {
-        throw StatusException({StatusCode::not_ready,
-                               "resident: no pairs were searched; the table was not submitted, or "
-                               "there were fewer than two instances"});
-    }
-    return buffers_->outputs().pairs();
-}
-
-std::uint32_t DevicePairTableBase::State::candidates() const {
-    const bool has_searched = buffers_ != nullptr && instances_.size() > 1 && !is_submitted_;
-    return has_searched ? buffers_->candidates() : 0;
-}
-
-std::uint32_t DevicePairTableBase::State::device_row(const char* call, std::uint32_t index) const {
-    if (index >= rows) {
-        refuse(call, "there is no row " + std::to_string(index) + "; the table has " +
-                         std::to_string(rows));
-    }
+std::uint32_t DevicePairs::device_row(std::uint32_t index) const {
     // A dropped row comes before that of the table if fewer than `index` others lie before it.
     std::uint32_t dropped = 0;
     auto count = static_cast<std::uint32_t>(dropped_rows_.size());
@@ -124,7 +23,7 @@ std::uint32_t DevicePairTableBase::State::device_row(const char* call, std::uint
     return index + dropped;
 }
 
-const AnyResult* DevicePairTableBase::State::find_decided(std::uint32_t row) const {
+const AnyResult* DevicePairs::find_decided(std::uint32_t row) const {
     const auto found =
         std::lower_bound(decided_.begin(), decided_.end(), row,
                          [](const Decided& one, std::uint32_t other) { return one.row < other; });
@@ -133,8 +32,7 @@ const AnyResult* DevicePairTableBase::State::find_decided(std::uint32_t row) con
                : nullptr;
 }
 
-AnyQuery DevicePairTableBase::State::query_on_cpu(const plan::PairRowData& data,
-                                                  bool with_records) const {
+AnyQuery DevicePairs::query_on_cpu(const plan::PairRowData& data, bool with_records) const {
     AnyQuery on_cpu = query_;
     std::visit(
         [&](auto& query) {
@@ -154,22 +52,15 @@ AnyQuery DevicePairTableBase::State::query_on_cpu(const plan::PairRowData& data,
     return on_cpu;
 }
 
-const AnyResult& DevicePairTableBase::State::answer_on_cpu(const plan::PairRowData& data,
-                                                           bool with_records) {
+const AnyResult& DevicePairs::answer_on_cpu(const plan::PairRowData& data, bool with_records) {
     cpu_queries_.assign(1, query_on_cpu(data, with_records));
     context_->ring().answer(
         cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, cpu_results_);
     return cpu_results_.results.front();
 }
 
-void DevicePairTableBase::State::require_records() const {
-    if (!question_.records) {
-        refuse("records", "the table's query does without records");
-    }
-}
-
 /// Plans the pair as if its points had been found by a batch.
-void DevicePairTableBase::State::begin(const plan::PairRowData& data) {
+void DevicePairs::begin(const plan::PairRowData& data) {
     const PairInstance& a = instances_[data.a];
     const PairInstance& b = instances_[data.b];
     plan_.points.clear();
@@ -193,8 +84,8 @@ void DevicePairTableBase::State::begin(const plan::PairRowData& data) {
     }
 }
 
-void DevicePairTableBase::State::add_points(std::span<const plan::FoundPointData> found,
-                                            plan::PlannedQuery& planned) {
+void DevicePairs::add_points(std::span<const plan::FoundPointData> found,
+                             plan::PlannedQuery& planned) {
     plan::PlannedPoints& points = planned.points();
     points.first = static_cast<std::uint32_t>(plan_.points.size());
     points.count = static_cast<std::uint32_t>(found.size());
@@ -207,8 +98,8 @@ void DevicePairTableBase::State::add_points(std::span<const plan::FoundPointData
     }
 }
 
-void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
-    const std::uint32_t number = device_row("row", index);
+void DevicePairs::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
+    const std::uint32_t number = device_row(index);
     const plan::PairRowData data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<PenetrationResult>(*decided));
@@ -232,8 +123,8 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQue
     fill(row, data, result);
 }
 
-void DevicePairTableBase::State::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
-    const plan::PairRowData data = pair_of(device_row("row", index));
+void DevicePairs::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
+    const plan::PairRowData data = pair_of(device_row(index));
     IntersectionTestResult result;
     result.intersects = true;
     for (const std::uint32_t instance : {data.a, data.b}) {
@@ -246,10 +137,8 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<IntersectionTe
     fill(row, data, result);
 }
 
-void DevicePairTableBase::State::records(std::uint32_t index,
-                                         std::vector<PenetrationRecord>& records) {
-    require_records();
-    const std::uint32_t number = device_row("records", index);
+void DevicePairs::records(std::uint32_t index, std::vector<PenetrationRecord>& records) {
+    const std::uint32_t number = device_row(index);
     const plan::PairRowData data = pair_of(number);
     // As row() has it.
     if (find_decided(number) != nullptr || (data.count & plan::row_to_resolve) != 0) {
@@ -263,9 +152,75 @@ void DevicePairTableBase::State::records(std::uint32_t index,
     static_cast<void>(resolver_.list_penetrations(question_.tolerance, records));
 }
 
-void DevicePairTableBase::State::records(std::uint32_t /*index*/,
-                                         std::vector<NoRecord>& /*records*/) const {
-    require_records();
+/// Both directions of the pair, with the points that the device found.
+void DevicePairs::find_contacts(const plan::PairRowData& data, std::uint32_t row) {
+    begin(data);
+    plan::PlannedQuery& of_a = plan_.queries[0];
+    plan::PlannedQuery& of_b = plan_.queries[1];
+    of_b = of_a;
+    std::swap(of_b.a, of_b.b);
+    std::swap(of_b.pose_a, of_b.pose_b);
+    std::swap(of_b.deviations.a, of_b.deviations.b);
+    of_a.points().reverse = 1;
+    add_points(buffers_->records(row, data.first_record, data.record_count), of_a);
+    add_points(buffers_->records(row, data.first_of_b, data.count_of_b), of_b);
+    contact_decoder_.find(plan_, of_a, words_, of_a.budget.cell, found_contacts_);
+}
+
+ContactResult& DevicePairs::contacts_of(const plan::PairRowData& data, std::uint32_t row) {
+    contacts_.manifold.clear();
+    contacts_.records.clear();
+    if (find_decided(row) != nullptr) {
+        const auto& answer = std::get<ContactResult>(answer_on_cpu(data, question_.records));
+        contacts_.manifold = answer.manifold;
+        contacts_.records = answer.records;
+        return contacts_;
+    }
+    find_contacts(data, row);
+    const plan::PlannedQuery& planned = plan_.queries.front();
+    contacts_.cell = planned.budget.cell;
+    found_contacts_.write(*planned.a, *planned.b, std::get<ContactQuery>(query_), contacts_);
+    return contacts_;
+}
+
+bool DevicePairs::do_intersect(const plan::PairRowData& data) {
+    if ((data.count & plan::row_intersects) != 0) {
+        return true;
+    }
+    begin(data);
+    edges_.clear();
+    return intersection_test_.intersect(plan_.queries.front(), edges_);
+}
+
+void DevicePairs::row(std::uint32_t index, PairRow<ContactQuery>& row) {
+    const std::uint32_t number = device_row(index);
+    const plan::PairRowData data = pair_of(number);
+    if (const AnyResult* const decided = find_decided(number)) {
+        fill(row, data, std::get<ContactResult>(*decided));
+        return;
+    }
+    contacts_.count = data.count & plan::row_count_mask;
+    if ((data.count & plan::row_to_resolve) != 0) {
+        find_contacts(data, number);
+        contacts_.count = found_contacts_.count();
+    }
+    contacts_.intersects = do_intersect(data);
+    const auto deviation_of = [this](std::uint32_t instance) {
+        return polygon_of(instances_[instance].instance.shape)->deviation();
+    };
+    contacts_.error_bound =
+        plan::pair_budget(query_, {deviation_of(data.a), deviation_of(data.b)}).bound;
+    fill(row, data, contacts_);
+}
+
+void DevicePairs::records(std::uint32_t index, std::vector<ContactRecord>& records) {
+    const std::uint32_t number = device_row(index);
+    std::swap(records, contacts_of(pair_of(number), number).records);
+}
+
+void DevicePairs::manifold(std::uint32_t index, std::vector<ContactCluster>& manifold) {
+    const std::uint32_t number = device_row(index);
+    std::swap(manifold, contacts_of(pair_of(number), number).manifold);
 }
 
 }  // namespace nearfield

@@ -219,7 +219,7 @@ std::uint32_t Context::Implementation::reload_shaders(const char* folder) {
     machinery_->ring.require_none_in_flight("reload_shaders");
     if (tables_in_flight > 0) {
         throw StatusException({StatusCode::not_ready,
-                               "reload_shaders: a DevicePairTable was submitted or recorded, and "
+                               "reload_shaders: a PairTable was submitted or recorded, and "
                                "has not been collected since"});
     }
     if (!reload_) {

@@ -2,6 +2,7 @@
 
 #include <engine/base/status_exception.hpp>
 #include <engine/plan/check_query.hpp>
+#include <engine/world/instances.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/world.hpp>
 
@@ -77,23 +78,17 @@ inline void require_nearest_query(const NearestQuery& query) {
     }
 }
 
-/// Refuses queries of pairs that the CPU does not answer; returns what it is asked.
-template <class Query>
-[[nodiscard]] Query asked_of_cpu(const char* call, Query query) {
-    bool on_device = query.technique == Technique::raster || query.technique == Technique::compute;
-    if constexpr (requires { query.resident; }) {
-        on_device = on_device || query.resident;
+/// Refuses moves unless every instance exists and has a pose that can be used.
+inline void require_moves(const char* call, const world::Instances& instances,
+                          std::span<const InstanceHandle> moving, std::span<const Pose> poses) {
+    if (moving.size() != poses.size()) {
+        refuse(call, "there are " + std::to_string(moving.size()) + " instances and " +
+                         std::to_string(poses.size()) + " poses");
     }
-    if (on_device) {
-        refuse(call,
-               "pairs of a world are answered by Technique::cpu; the query asks for another "
-               "technique, or for resident results");
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        static_cast<void>(instances.find(moving[i], call));
+        require_pose(call, "an instance", i, poses[i]);
     }
-    query.technique = Technique::cpu;
-    if (Status status = plan::check_query(query, {}); !status.ok()) {
-        refuse(call, status.message());
-    }
-    return query;
 }
 
 }  // namespace nearfield

@@ -35,10 +35,6 @@ void require_room_for_nearest(std::uint32_t count, const char* what, std::size_t
     }
 }
 
-const geometry::Polygon* find_shape(void* store, ShapeHandle shape) {
-    return static_cast<batch::ShapeStore*>(store)->find(shape);
-}
-
 /// Places a shape at each of at most `angles_at_once` poses.
 void place_at(const geometry::Polygon& shape, std::span<const Pose> poses,
               std::vector<TransformedPolygon>& placed) {
@@ -66,22 +62,9 @@ InstanceHandle World::Implementation::add(const WorldInstance& instance) {
     return instances_.add(instance);
 }
 
-void World::Implementation::require_moves(const char* call,
-                                          std::span<const InstanceHandle> instances,
-                                          std::span<const Pose> poses) const {
-    if (instances.size() != poses.size()) {
-        refuse(call, "there are " + std::to_string(instances.size()) + " instances and " +
-                         std::to_string(poses.size()) + " poses");
-    }
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        static_cast<void>(instances_.find(instances[i], call));
-        require_pose(call, "an instance", i, poses[i]);
-    }
-}
-
 void World::Implementation::move(std::span<const InstanceHandle> instances,
                                  std::span<const Pose> poses) {
-    require_moves("move", instances, poses);
+    require_moves("move", instances_, instances, poses);
     instances_.move(instances, poses);
 }
 
@@ -99,7 +82,7 @@ WorldInstance World::Implementation::instance(InstanceHandle instance) const {
 }
 
 void World::Implementation::prepare() {
-    instances_.prepare({find_shape, &context_->shapes()}, context_->shapes().revision());
+    view().prepare();
 }
 
 void World::Implementation::prepare(const WorldFilter& filter, const char* call) {

@@ -3,8 +3,7 @@
 #include <engine/base/jobs.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/context/job_lists.hpp>
-#include <engine/cpu/point_penetration.hpp>
-#include <engine/narrowphase/overlap_test.hpp>
+#include <engine/context/world_view.hpp>
 #include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
 #include <engine/world/nearest_queries.hpp>
@@ -13,13 +12,10 @@
 #include <engine/world/ray_queries.hpp>
 #include <engine/world/shape_edge_queries.hpp>
 #include <nearfield/world.hpp>
-#include <nearfield/world_device.hpp>
 #include <nearfield/world_device_queries.hpp>
-#include <nearfield/world_pairs.hpp>
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,11 +35,6 @@ public:
 
     void test_poses(const PoseTestQuery& query, std::span<const Pose> poses,
                     std::span<std::uint8_t> intersects);
-    void test_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
-                    std::span<std::uint8_t> intersects);
-    void find_penetrations(const PenetrationQuery& asked, std::span<const InstanceHandle> a,
-                           std::span<const InstanceHandle> b,
-                           std::span<PairRow<PenetrationQuery>> rows);
     void find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
                          std::span<Clearance> clearances);
     void find_nearest(const NearestQuery& query, std::span<const Vector2> points,
@@ -64,16 +55,6 @@ public:
     void find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
                        InstanceLists& lists);
 
-    /// Defined in world_pairs.cpp for the queries of the public class.
-    template <class Query>
-    void update(PairTable<Query>& table);
-    void update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
-                std::span<const Pose> ends);
-
-    /// `poses`: of the host; null: the world's.
-    void update(DevicePairTableBase& table, const DevicePoses* poses);
-    void submit(DevicePairTableBase& table, const DevicePoses* poses);
-    void record(DevicePairTableBase& table, const DevicePoses* poses, const Recording& recording);
     void submit(DeviceRays& rays, std::span<const Segment> segments, const WorldFilter& filter);
     void cast_rays(DeviceRays& rays, std::span<const Segment> segments, std::span<RayHit> hits,
                    const WorldFilter& filter);
@@ -83,7 +64,8 @@ public:
     void submit(DevicePoseTests& tests, const PoseTestQuery& query, std::span<const Pose> poses);
     void test_poses(DevicePoseTests& tests, const PoseTestQuery& query, std::span<const Pose> poses,
                     std::span<std::uint8_t> intersects);
-    [[nodiscard]] bool is_recorded(const DevicePairTableBase& table) const;
+    /// As tables of pairs see it.
+    [[nodiscard]] WorldView view() { return {*context_, identity_, instances_}; }
 
     [[nodiscard]] std::uint64_t bytes() const;
     void trim();
@@ -97,50 +79,17 @@ private:
         world::ShapeEdgeQueries edges;
         world::RayQueries rays;
         world::OverlapQueries overlaps;
-        narrowphase::OverlapTest overlap_test;
-        std::optional<cpu::PointPenetration> penetration;  // whose construction may fail
-        PenetrationResult penetration_result;
         std::vector<std::uint32_t> found;
     };
-    /// What a query of the batch is about: a sweep or a pair by its number, and an instance.
+    /// What a query of the batch is about: a sweep by its number, and an instance.
     struct Candidate {
         std::size_t number;
         std::uint32_t instance;
     };
 
-    /// `find_pairs()` brings the table's list of pairs up to date.
-    template <class Query, class FindPairs>
-    void update(PairTable<Query>& table, const FindPairs& find_pairs);
-    template <class Query>
-    void answer_new_pairs(PairTable<Query>& table);
-    template <class Query>
-    void append_rows(PairTable<Query>& table);
-    template <class Query>
-    void merge_rows(PairTable<Query>& table);
-
-    void test_pairs_of_part(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
-                            std::span<std::uint8_t> intersects, Job& job) const;
-    /// By all jobs.
-    void test_many_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
-                         std::span<std::uint8_t> intersects);
-    /// By a batch.
-    void find_sampled_penetrations(PenetrationQuery query, std::span<const InstanceHandle> a,
-                                   std::span<const InstanceHandle> b,
-                                   std::span<PairRow<PenetrationQuery>> rows);
-    /// About A's vertices, by one job.
-    void find_penetrations(const PenetrationQuery& query, std::span<const InstanceHandle> a,
-                           std::span<const InstanceHandle> b,
-                           std::span<PairRow<PenetrationQuery>> rows, Job& job) const;
-    /// The answer for two instances, about A's vertices; its status is that of the pair.
-    [[nodiscard]] const PenetrationResult& find_penetration(
-        const PenetrationQuery& query, std::uint32_t a, std::uint32_t b,
-        const cpu::PointPenetration::Reverse* reverse, Job& job) const;
     [[nodiscard]] Instance instance_of(std::uint32_t index) const {
         return {instances_[index].shape, instances_[index].pose};
     }
-    /// Throws unless every instance exists and has a pose that can be used.
-    void require_moves(const char* call, std::span<const InstanceHandle> instances,
-                       std::span<const Pose> poses) const;
     /// Answers the queries of the batch.
     void run_batch();
     /// Takes in what has changed in the world.
@@ -180,7 +129,7 @@ private:
     Jobs jobs_;
     std::vector<Job> scratch_;  // by job
     world::HilbertOrder hilbert_order_;
-    Batch batch_;  // of shape casts and pairs
+    Batch batch_;  // of shape casts
     Results results_;
     std::vector<Candidate> candidates_;  // by query of the batch
     JobLists<RayHit> ray_lists_;

@@ -16,6 +16,15 @@ PairQuestion near_question(const Query& query, double reach) {
 
 }  // namespace
 
+bool is_for_all_pairs(const AnyQuery& query) {
+    const auto* const contacts = std::get_if<ContactQuery>(&query);
+    return std::holds_alternative<PenetrationQuery>(query) ||
+           std::holds_alternative<IntersectionTestQuery>(query) ||
+           std::holds_alternative<SeparationQuery>(query) ||
+           std::holds_alternative<ClosestPointQuery>(query) ||
+           (contacts != nullptr && contacts->normals == ContactNormals::analytic);
+}
+
 PairQuestion pair_question(const AnyQuery& query, double reach) {
     if (std::holds_alternative<IntersectionTestQuery>(query)) {
         return {.goal = PairGoal::tests, .is_once = is_symmetric<IntersectionTestQuery>};

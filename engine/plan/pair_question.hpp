@@ -37,12 +37,6 @@ inline constexpr std::array<PairSearchKind, 5> pair_search_kinds{
      {PairGoal::contacts, FoundPoints::packed},
      {PairGoal::tests, FoundPoints::compared}}};
 
-/// Queries whose answer is the same with the shapes swapped: all pairs of a world have one row.
-template <class Query>
-inline constexpr bool is_symmetric =
-    std::is_same_v<Query, SeparationQuery> || std::is_same_v<Query, IntersectionTestQuery> ||
-    std::is_same_v<Query, TimeOfImpactQuery>;
-
 /// What a query asks of the device about every pair of a world's instances. World units.
 struct PairQuestion {
     PairGoal goal{};
@@ -64,7 +58,16 @@ struct PairQuestion {
     }
 };
 
-/// Precondition: the query is one that the device answers for all pairs of a world.
+/// Queries whose answer is the same with the shapes swapped are asked once of each pair of a world,
+/// the others in both orders.
+template <class Query>
+inline constexpr bool is_symmetric =
+    std::is_same_v<Query, SeparationQuery> || std::is_same_v<Query, IntersectionTestQuery> ||
+    std::is_same_v<Query, TimeOfImpactQuery>;
+
+/// Whether the device answers a query for all pairs of a world.
+[[nodiscard]] bool is_for_all_pairs(const AnyQuery& query);
+/// Precondition: is_for_all_pairs(query).
 /// `reach`: of separations and closest points.
 [[nodiscard]] PairQuestion pair_question(const AnyQuery& query, double reach);
 /// How such a query, which has a tolerance, spends it on shapes with these deviations.

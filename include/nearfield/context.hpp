@@ -363,12 +363,11 @@ public:
     /// invalid. Never waits.
     void trim() noexcept;
 
+    class NEARFIELD_HIDDEN Implementation;  ///< the library's own
+
 private:
-    class NEARFIELD_HIDDEN Implementation;
-    friend struct ContextAccess;       // of diagnostics.hpp
-    friend class World;                // of world.hpp
-    friend class DevicePairTableBase;  // of world_device.hpp
-    friend class DeviceQueryBase;      // of world_device_queries.hpp
+    friend struct ContextAccess;  // of diagnostics.hpp
+    friend class World;           // of world.hpp
     explicit Context(std::unique_ptr<Implementation> implementation) noexcept;
     std::unique_ptr<Implementation> implementation_;
 };

@@ -13,7 +13,7 @@
 namespace nearfield {
 
 /// The poses of a world's instances in a buffer of the host's, on the context's device:
-/// World::submit(), World::update() and World::record() of a DevicePairTable. The host writes them
+/// PairTableInput::poses of a PairTable that the device answers. The host writes them
 /// by commands submitted earlier to the same queue, for example by its own simulation; the CPU does
 /// not see them before the table is collected.
 ///

@@ -48,10 +48,10 @@ enum class GraphFormat {
 };
 
 /// The render graphs of the last batch submitted or recorded, each with a title, or that of a
-/// DevicePairTable updated or recorded since: passes, resources, lifetimes, barriers; those of a
-/// host's targets as by default, not as stated. Empty before the first of them and in a context
-/// without a device. Batches that the CPU answers alone do not count. Fails with invalid_settings
-/// if `format` is not a valid enumerator, or with out_of_memory.
+/// PairTable that the device has updated, or that was recorded, since: passes, resources,
+/// lifetimes, barriers; those of a host's targets as by default, not as stated. Empty before the
+/// first of them and in a context without a device. Batches that the CPU answers alone do not
+/// count. Fails with invalid_settings if `format` is not a valid enumerator, or with out_of_memory.
 [[nodiscard]] NEARFIELD_EXPORT Expected<std::string> describe_graph(const Context& context,
                                                                     GraphFormat format);
 
@@ -74,7 +74,7 @@ enum class GraphFormat {
 ///
 /// Fails with unavailable if the library was built without the CMake option
 /// NEARFIELD_SHADER_RELOAD, as release builds are; with no_device in a context without one; with
-/// not_ready while batches are in flight, or a DevicePairTable is not collected; with
+/// not_ready while batches are in flight, or a PairTable is not collected; with
 /// invalid_shader if a source cannot be read or compiled (the compiler's messages are the reasons
 /// and go to the log); as Context::create() does if the device rejects a pipeline. The shaders in
 /// use then stay in use.

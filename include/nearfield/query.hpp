@@ -90,7 +90,7 @@ enum class PenetrationPoints {
 
 /// Point depth: for points of A's boundary inside B, the distance and direction to the nearest
 /// point of B's boundary (section 2.2.4 of the paper, "Penetration Depth and Direction").
-struct PenetrationQuery {
+struct NEARFIELD_EXPORT PenetrationQuery {
     using Result = PenetrationResult;  ///< its answer (result.hpp)
 
     Instance a = {};         ///< the shape whose points are examined
@@ -146,7 +146,7 @@ inline constexpr std::size_t intersection_strategies = 4;
 [[nodiscard]] NEARFIELD_EXPORT const char* to_string(IntersectionStrategy strategy) noexcept;
 
 /// The samples of a grid that lie in both shapes (section 2.2.1 and Table 1 of the paper).
-struct IntersectionQuery {
+struct NEARFIELD_EXPORT IntersectionQuery {
     using Result = IntersectionResult;  ///< its answer (result.hpp)
 
     Instance a = {};                                          ///< its boundary or volume, by `kind`
@@ -235,7 +235,7 @@ enum class ContactNormals {
 
 /// Contact points and normals: the points of either boundary that are close to the other boundary,
 /// inside and outside it (section 2.2.4 of the paper, "Contact Points and Normals").
-struct ContactQuery {
+struct NEARFIELD_EXPORT ContactQuery {
     using Result = ContactResult;  ///< its answer (result.hpp)
 
     Instance a = {};                ///< first shape
@@ -251,7 +251,7 @@ struct ContactQuery {
 };
 
 /// The point of A that is closest to B (section 2.2.4 of the paper, "Closest Point").
-struct ClosestPointQuery {
+struct NEARFIELD_EXPORT ClosestPointQuery {
     using Result = ClosestPointResult;  ///< its answer (result.hpp)
 
     Instance a = {};  ///< the shape whose closest point is computed
@@ -265,7 +265,7 @@ struct ClosestPointQuery {
 
 /// The minimum distance between two shapes and where it occurs (section 2.2.4 of the paper,
 /// "Separation Distance and Direction").
-struct SeparationQuery {
+struct NEARFIELD_EXPORT SeparationQuery {
     using Result = SeparationResult;  ///< its answer (result.hpp)
 
     Instance a = {};                             ///< first shape
@@ -277,7 +277,7 @@ struct SeparationQuery {
 /// Tests whether the closed shapes A and B share a point; ResultSummary::intersects is the answer.
 /// Exact up to the rounding of transformed vertices, so it has no tolerance. Always answered on the
 /// CPU: Technique::automatic or cpu; raster and compute fail (invalid_query).
-struct IntersectionTestQuery {
+struct NEARFIELD_EXPORT IntersectionTestQuery {
     using Result = IntersectionTestResult;  ///< its answer (result.hpp)
 
     Instance a = {};                             ///< first shape
@@ -290,7 +290,7 @@ struct IntersectionTestQuery {
 /// rotates about the origin of its own coordinates, by whole turns if the angles differ by that
 /// much. A shape whose end pose equals its instance's pose does not move. Goes beyond the paper.
 /// Always answered on the CPU, as IntersectionTestQuery.
-struct TimeOfImpactQuery {
+struct NEARFIELD_EXPORT TimeOfImpactQuery {
     using Result = TimeOfImpactResult;  ///< its answer (result.hpp)
 
     Instance a = {};  ///< with A's pose at time 0
@@ -317,7 +317,7 @@ struct TimeOfImpactQuery {
 /// share no point (a bound on the minimum translation vector, MTV). Goes beyond the paper, whose
 /// penetration depth is that of single points. Always answered on the CPU, as
 /// IntersectionTestQuery.
-struct SeparationVectorQuery {
+struct NEARFIELD_EXPORT SeparationVectorQuery {
     using Result = SeparationVectorResult;  ///< its answer (result.hpp)
 
     Instance a = {};  ///< the shape that moves
@@ -339,7 +339,7 @@ struct SeparationVectorQuery {
 /// area of A, however small, means that it is not. Exact up to the rounding of transformed
 /// vertices, so it has no tolerance. Goes beyond the paper. Always answered on the CPU, as
 /// IntersectionTestQuery.
-struct ContainmentQuery {
+struct NEARFIELD_EXPORT ContainmentQuery {
     using Result = ContainmentResult;  ///< its answer (result.hpp)
 
     Instance a = {};                             ///< the shape that may be inside

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 /// \file
-/// Pairs of a world that stay on the device (DevicePairTable::resident()), for the host's own
+/// Pairs of a world that stay on the device (PairTable::resident()), for the host's own
 /// shaders. The GLSL header nearfield/nearfield.glsl declares the same structures.
 
 namespace nearfield {
@@ -21,12 +21,12 @@ struct ResidentArray {
     VkDeviceSize size = 0;             ///< of the array, in bytes
     std::uint32_t capacity = 0;        ///< maximum number of elements
     /// How many there are. `overflow` is 1 if there was not enough room for the pairs, whose rows
-    /// and records are then not all there; DevicePairTable::collect() makes room and searches
+    /// and records are then not all there; PairTable::collect() makes room and searches
     /// again, or, where the commands were recorded for the host, the next World::record() does.
     ResidentHeader header;
 };
 
-/// The rows of a DevicePairTable whose query is resident (PenetrationQuery::resident,
+/// The rows of a PairTable whose query is resident (PenetrationQuery::resident,
 /// ContactQuery::resident), as the device has found them, in ascending order as in the table.
 /// Nothing of them is made exact: pairs that single precision cannot decide are there with a flag
 /// (resident_pair_flags), and it is for the host's shaders to count them or not.
@@ -44,7 +44,7 @@ struct ResidentArray {
 /// is at most twice this divided by the distance, where the record is neither touching nor
 /// undecided.
 ///
-/// Where pairs of contacts are searched in parts (DevicePairTable), a point may have two equal
+/// Where pairs of contacts are searched in parts (PairTable), a point may have two equal
 /// records, of which a pair names one.
 struct ResidentPairs {
     ResidentArray pairs;         ///< of PairData

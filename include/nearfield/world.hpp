@@ -16,8 +16,8 @@
 /// instead of two shapes. Input and output are spans of flat structures, one entry per pose, point
 /// or segment, in the caller's memory.
 ///
-/// Queries of a world are answered on the CPU, except for tables that the device fills
-/// (world_device.hpp) and many rays, points or poses that it is asked about
+/// Queries of a world are answered on the CPU, except for tables of pairs that the device fills
+/// (world_pairs.hpp) and many rays, points or poses that it is asked about
 /// (world_device_queries.hpp), exact up to the rounding that each answer's error bound states. What
 /// a world keeps between queries makes them faster and never changes an answer: after any sequence
 /// of calls, each answer is the same, bit for bit, as in a new world to which the present instances
@@ -25,15 +25,10 @@
 
 namespace nearfield {
 
-template <class Query>
-class PairTable;
-template <class Query>
-struct PairRow;
-class DevicePairTableBase;
+class PairTableBase;
 class DeviceRays;
 class DeviceNearest;
 class DevicePoseTests;
-struct DevicePoses;
 
 /// Instances of shapes of one context, kept from frame to frame.
 ///
@@ -103,20 +98,6 @@ public:
     /// shapes may change meanwhile: answers are those of the world as it was. Otherwise likewise.
     Status submit(DevicePoseTests& tests, const PoseTestQuery& query, std::span<const Pose> poses,
                   const Limits& limits = {});
-    /// For each pair of instances a[i] and b[i], 1 if they share a point, otherwise 0: a list of
-    /// the caller's own, to which filters do not apply. Exact as test_poses(), and quicker than a
-    /// batch where most instances have not moved. An instance whose shape was removed shares no
-    /// point. Fails (invalid_query) if the spans differ in length.
-    Status test_pairs(std::span<const InstanceHandle> a, std::span<const InstanceHandle> b,
-                      std::span<std::uint8_t> intersects, const Limits& limits = {});
-    /// For each pair of instances a[i] and b[i], the answer to a penetration query, whose own `a`,
-    /// `b` and `records` are ignored: the row that a PairTable (world_pairs.hpp) would have, bit
-    /// for bit, without records. The status of a row is unknown_shape if a shape was removed.
-    /// Technique::automatic means Technique::cpu. Of boundary samples, also fails as
-    /// Context::run(). Otherwise as test_pairs().
-    Status find_penetrations(const PenetrationQuery& query, std::span<const InstanceHandle> a,
-                             std::span<const InstanceHandle> b,
-                             std::span<PairRow<PenetrationQuery>> rows, const Limits& limits = {});
 
     /// For each pose, the least distance of the shape there from the world. Neighbouring poses in
     /// sequence are faster than poses in random order. Otherwise as test_poses().
@@ -200,62 +181,32 @@ public:
     Status find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
                          InstanceLists& lists, const Limits& limits = {});
 
-    /// Brings a table of pairs (world_pairs.hpp) up to date. Fails with invalid_query if its reach
-    /// or query is invalid, if `limits` end the call, and as Context::run(); the table is empty
-    /// then, unless the limits themselves are refused. Errors of single pairs are the status of
-    /// their rows.
-    Status update(PairTable<PenetrationQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(PairTable<ContactQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(PairTable<IntersectionQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(PairTable<ClosestPointQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(PairTable<SeparationQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(PairTable<IntersectionTestQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(PairTable<SeparationVectorQuery>& table, const Limits& limits = {});
-    /// Likewise.
-    Status update(PairTable<ContainmentQuery>& table, const Limits& limits = {});
-    /// The times of impact while instances move: from time 0 to time 1, moving[i] goes from its
-    /// pose to ends[i], as TimeOfImpactQuery describes it, and all others stand still. The
-    /// instances keep their poses: a step that goes to its end is followed by move(moving, ends).
-    /// If an instance is named twice, the later end counts. Also fails as move() does. Otherwise
-    /// likewise.
-    Status update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
-                  std::span<const Pose> ends, const Limits& limits = {});
-
-    /// Brings a table that the device fills (world_device.hpp) up to date and waits for the device.
-    /// Fails with invalid_query if the query or reach is invalid; with unsupported_technique if the
-    /// context has no pipelines of Technique::compute; with too_large if there are more than 2^18
-    /// instances, or more pairs or points than the device has memory for; if `limits` end the call;
-    /// and as Context::run(). The table is empty then, unless the limits themselves are refused.
-    /// Errors of single pairs are the status of their rows.
-    Status update(DevicePairTableBase& table, const Limits& limits = {});
-    /// Does the first half of it: uploads what has changed, and lets the device begin. The second
-    /// half is DevicePairTable::collect(); until then the table has no rows, and update() and
-    /// submit() leave it alone and fail with not_ready. Instances and shapes may change meanwhile:
-    /// the table describes them as they were. Otherwise likewise.
-    Status submit(DevicePairTableBase& table, const Limits& limits = {});
-    /// The same at poses that the host's commands write (device_poses.hpp), of all instances; those
-    /// that the world keeps are neither used nor changed. Also fails with invalid_query if the
-    /// buffer is not as it must be, and, once the device has looked, if a pose is none.
-    Status update(DevicePairTableBase& table, const DevicePoses& poses, const Limits& limits = {});
-    /// Likewise.
-    Status submit(DevicePairTableBase& table, const DevicePoses& poses, const Limits& limits = {});
+    /// Brings a table of pairs (world_pairs.hpp) up to date: submit() and PairTable::collect() in
+    /// one. `input`: what the table is told besides. Fails with invalid_query if query, options or
+    /// input are invalid or do not fit each other; with unknown_instance, if the input names one
+    /// that is none; with not_ready if the table was submitted and not collected; if `limits` end
+    /// the call; and as Context::run(). By Technique::compute also with unsupported_technique if
+    /// the context has no pipelines for it, and with too_large if there are more instances than
+    /// 2^18, or more pairs or points than the device has memory for. After an error but not_ready,
+    /// and but for limits that are refused themselves, the table is empty. Errors of single pairs
+    /// are the status of their rows.
+    Status update(PairTableBase& table, const PairTableInput& input = {},
+                  const Limits& limits = {});
+    /// Does the first half of it: uploads what has changed, and lets the device begin; or, by
+    /// Technique::cpu, answers the pairs. The second half is PairTable::collect(); until then the
+    /// table has no rows. Instances and shapes may change meanwhile: the table describes them as
+    /// they were. Fails as update().
+    Status submit(PairTableBase& table, const PairTableInput& input = {},
+                  const Limits& limits = {});
     /// Records what submit() submits into a command buffer of the host, which may submit it again
-    /// and again: see DevicePairTable. Submits nothing and waits for nothing. Fails as submit()
-    /// and, with invalid_submission, as Context::record(); nothing has been recorded then.
-    Status record(DevicePairTableBase& table, const Recording& recording,
-                  const Limits& limits = {});
-    /// Likewise.
-    Status record(DevicePairTableBase& table, const DevicePoses& poses, const Recording& recording,
-                  const Limits& limits = {});
+    /// and again: see PairTable. Submits nothing and waits for nothing. Fails as submit(), with
+    /// invalid_submission as Context::record(), and with invalid_query if the table is answered by
+    /// the CPU; nothing has been recorded then.
+    Status record(PairTableBase& table, const Recording& recording,
+                  const PairTableInput& input = {}, const Limits& limits = {});
     /// False if a table has to be recorded (again): collect() found no room, or instances, filters
     /// or any shape of the context have changed since. Poses are not compared.
-    [[nodiscard]] bool is_recorded(const DevicePairTableBase& table) const noexcept;
+    [[nodiscard]] bool is_recorded(const PairTableBase& table) const noexcept;
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

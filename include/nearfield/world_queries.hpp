@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 /// \file
@@ -12,6 +13,8 @@
 /// many, a caller has a flat array.
 
 namespace nearfield {
+
+struct DevicePoses;
 
 /// Names an instance of one world. The default value names none. A handle of another world, or of
 /// an instance that was removed, is refused (unknown_instance).
@@ -196,6 +199,23 @@ struct ShapeCastHit {
     Vector2 point = {};             ///< of the moving shape at `time`, nearest to `instance`
     Vector2 nearest = {};           ///< of `instance`, nearest to `point`
     Vector2 direction = {};  ///< unit vector from `point` to `nearest`; (0, 0) where they meet
+};
+
+/// What a PairTable is told at an update, besides the world. What its query and options do not use
+/// stays empty. Borrowed during the call.
+struct PairTableInput {
+    std::span<const InstanceHandle> a = {};  ///< PairTableOptions::listed: of pair i, its `a`
+    std::span<const InstanceHandle> b = {};  ///< the same number of them: its `b`
+    /// Of times of impact: the instances that move, from time 0 to time 1, as TimeOfImpactQuery
+    /// describes it. All others stand still. They keep their poses: a step that goes to its end is
+    /// followed by World::move(moving, ends).
+    std::span<const InstanceHandle> moving = {};
+    /// The pose that moving[i] goes to. If an instance is named twice, its later one counts.
+    std::span<const Pose> ends = {};
+    /// By Technique::compute: the poses of all instances, which the host's commands write on the
+    /// device (device_poses.hpp). Those that the world keeps are neither used nor changed. Null:
+    /// they count.
+    const DevicePoses* poses = nullptr;
 };
 
 }  // namespace nearfield

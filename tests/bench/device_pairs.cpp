@@ -26,13 +26,13 @@ using nearfield::bench::wall_milliseconds;
 
 using nearfield::ContactQuery;
 using nearfield::Context;
-using nearfield::DevicePairTable;
 using nearfield::IntersectionTestQuery;
 using nearfield::PairRow;
 using nearfield::PairTable;
 using nearfield::PenetrationPoints;
 using nearfield::PenetrationQuery;
 using nearfield::SeparationQuery;
+using nearfield::Technique;
 
 struct Times {
     double move = 0.0;  // of the CPU, as all that follow but `whole`
@@ -61,45 +61,17 @@ double number_of(const PairRow<SeparationQuery>& row) {
 }
 
 template <class Query>
-double read_all(DevicePairTable<Query>& table) {
-    double sum = 0.0;
-    for (std::uint32_t i = 0; i < table.size(); ++i) {
-        sum += number_of(take(table.row(i)));
-    }
-    return sum;
-}
-
-template <class Query>
-double read_all(const PairTable<Query>& table) {
+double read_all(PairTable<Query>& table) {
     double sum = 0.0;
     for (const auto& row : table.rows()) {
         sum += number_of(row);
     }
+    require(table.read_status());
     return sum;
 }
 
 template <class Query>
-double work_of_cpu(const DevicePairTable<Query>& table) {
-    return table.timings().plan + table.timings().record + table.timings().decode;
-}
-
-template <class Query>
-double work_of_cpu(const PairTable<Query>& /*table*/) {
-    return 0.0;
-}
-
-template <class Query>
-std::vector<nearfield::PassTime> passes_of(const DevicePairTable<Query>& table) {
-    return table.timings().passes;
-}
-
-template <class Query>
-std::vector<nearfield::PassTime> passes_of(const PairTable<Query>& /*table*/) {
-    return {};
-}
-
-template <class Table>
-Times measure(Crowd& crowd, Table& table, int frames) {
+Times measure(Crowd& crowd, PairTable<Query>& table, int frames) {
     std::vector<double> move;
     std::vector<double> update;
     std::vector<double> whole;
@@ -122,13 +94,14 @@ Times measure(Crowd& crowd, Table& table, int frames) {
             update.push_back(updated - moved);
             whole.push_back(end - begin);
             read.push_back(done - updated);
-            upload.push_back(work_of_cpu(table));
+            upload.push_back(table.timings().plan + table.timings().record +
+                             table.timings().decode);
         }
     }
     if (!std::isfinite(sum)) {
         throw std::runtime_error("depths are not finite");
     }
-    times.passes = passes_of(table);
+    times.passes = table.timings().passes;
     times.move = median(move);
     times.update = median(update);
     times.whole = median(whole);
@@ -158,15 +131,6 @@ const char* kind_of(const SeparationQuery& /*query*/) {
 constexpr double reach = 0.05;
 
 template <class Query>
-DevicePairTable<Query> table_of(const Query& query) {
-    if constexpr (nearfield::HasDistance<Query>) {
-        return DevicePairTable<Query>(query, reach);
-    } else {
-        return DevicePairTable<Query>(query);
-    }
-}
-
-template <class Query>
 bool has_records(const Query& query) {
     if constexpr (requires { query.records; }) {
         return query.records;
@@ -179,8 +143,10 @@ template <class Query>
 void compare(Context& context, std::uint32_t count, double side, const Query& query, int frames,
              bool shows_passes) {
     Crowd crowd(context, count, side);
-    DevicePairTable<Query> on_device = table_of(query);
-    PairTable<Query> on_cpu(query, {.reach = reach, .hits_only = true});
+    PairTable<Query> on_device(
+        query, {.reach = reach, .hits_only = true, .technique = Technique::compute});
+    PairTable<Query> on_cpu(query,
+                            {.reach = reach, .hits_only = true, .technique = Technique::cpu});
     const Times device = measure(crowd, on_device, frames);
     const Times cpu = measure(crowd, on_cpu, frames);
     std::printf("| %u | %s | %s | %u | %u | %u | %.3f | %.3f | %.3f | %.3f | %.2f | %.2f |\n",

@@ -34,6 +34,7 @@ using nearfield::PenetrationQuery;
 using nearfield::Pose;
 using nearfield::Results;
 using nearfield::SeparationQuery;
+using nearfield::Technique;
 using nearfield::World;
 
 constexpr std::size_t count = 1000;
@@ -139,8 +140,8 @@ double table_time(Crowd& crowd, PairTable<Query>& table) {
 
 template <class Query>
 void print_row(Context& context, Crowd& crowd, const char* name, const Query& query) {
-    PairTable<Query> all(query);
-    PairTable<Query> hits(query, {.hits_only = true});
+    PairTable<Query> all(query, {.technique = Technique::cpu});
+    PairTable<Query> hits(query, {.hits_only = true, .technique = Technique::cpu});
     const double of_batch = batch_time(context, crowd, query);
     const double of_all = table_time(crowd, all);
     const double of_hits = table_time(crowd, hits);

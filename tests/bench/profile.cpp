@@ -299,7 +299,8 @@ void profile_passes(const nearfield::HostDevice& host, const char* scene, Query 
             {.shape = shape,
              .pose = {{random.between(0.0, 36.0), random.between(0.0, 36.0)}, 0.1 * i}})));
     }
-    nearfield::DevicePairTable<Query> table(query);
+    nearfield::PairTable<Query> table(
+        query, {.hits_only = true, .technique = nearfield::Technique::compute});
     std::vector<std::vector<double>> times;
     for (int frame = -warm_up; frame < frames; ++frame) {
         for (const nearfield::InstanceHandle instance : instances) {

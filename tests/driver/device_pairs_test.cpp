@@ -1,10 +1,11 @@
 #include <nearfield/device_poses.hpp>
-#include <nearfield/world_device.hpp>
+#include <nearfield/world_pairs.hpp>
 #include <passes/compute_layout.hpp>
 
 #include <gtest/gtest.h>
 #include <shaders/pairs.h>
 #include <tests/driver/device_world.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -49,7 +50,7 @@ public:
             return world().update(table_);
         }
         if (way_ == Way::on_device) {
-            return world().update(table_, poses_);
+            return world().update(table_, at_poses(poses_));
         }
         if (way_ == Way::recorded) {
             Status status = record();
@@ -84,11 +85,12 @@ private:
         return way_ == Way::on_device || way_ == Way::recorded;
     }
     void enlarge() override { add(100, 5000); }
-    void forget() override { table_ = DevicePairTable(PenetrationQuery{}); }
+    void forget() override { table_ = PairTable(PenetrationQuery{}, on_device); }
     /// A frame of the host.
     Status record() {
         const VkCommandBuffer commands = driver().begin_commands();
-        Status status = world().record(table_, poses_, {.commands = commands, .frame = ++frame_});
+        Status status =
+            world().record(table_, {.commands = commands, .frame = ++frame_}, at_poses(poses_));
         if (!status.ok()) {
             return status;
         }
@@ -99,7 +101,7 @@ private:
     }
 
     Way way_;
-    DevicePairTable<PenetrationQuery> table_;
+    PairTable<PenetrationQuery> table_;
     DevicePoses poses_;
     std::uint64_t frame_ = 1000;  // others are before
 };

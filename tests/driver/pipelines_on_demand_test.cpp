@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/mock_driver.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -69,7 +70,7 @@ protected:
                     for (const Instance& one : {a, b}) {
                         static_cast<void>(world.add({.shape = one.shape, .pose = one.pose}));
                     }
-                    DevicePairTable<PenetrationQuery> table({.tolerance = 0.1});
+                    PairTable<PenetrationQuery> table({.tolerance = 0.1}, on_device);
                     return world.update(table);
                 },
                 [this, a] {

@@ -82,12 +82,8 @@ protected:
     }
     [[nodiscard]] std::size_t size_of_both() const { return added_.size(); }
     template <class Query>
-    static DevicePairTable<Query> table_of(const Query& query, double reach = 0.05) {
-        if constexpr (HasDistance<Query>) {
-            return {query, reach};
-        } else {
-            return DevicePairTable<Query>(query);
-        }
+    static PairTable<Query> table_of(const Query& query, double reach = 0.05) {
+        return PairTable<Query>(query, within(reach, on_device));
     }
     /// How many dispatches a part has.
     template <class Query>
@@ -97,7 +93,7 @@ protected:
         for (int i = 0; i < 2; ++i) {
             EXPECT_TRUE(few->add({.shape = shape}).has_value());
         }
-        DevicePairTable<Query> table = table_of(query);
+        PairTable<Query> table = table_of(query);
         EXPECT_TRUE(few->update(table).ok());
         EXPECT_GT(calls_of_parts.dispatches, 0);
         return calls_of_parts.dispatches;
@@ -112,7 +108,7 @@ protected:
 
     /// All that a table says.
     template <class Query>
-    static std::vector<double> numbers_of(DevicePairTable<Query>& table) {
+    static std::vector<double> numbers_of(PairTable<Query>& table) {
         std::vector<double> all{1.0 * table.candidates(), 1.0 * table.left_to_cpu(),
                                 1.0 * table.size()};
         for (std::uint32_t i = 0; i < table.size(); ++i) {
@@ -137,21 +133,16 @@ protected:
 
 private:
     template <class Query>
-    static void add_lists(DevicePairTable<Query>& table, std::uint32_t row,
-                          std::vector<double>& all) {
+    static void add_lists(PairTable<Query>& table, std::uint32_t row, std::vector<double>& all) {
         if constexpr (requires { table.query().records; }) {
             if (table.query().records) {
-                std::vector<typename Query::Result::Record> records;
-                EXPECT_TRUE(table.records(row, records).ok());
-                for (const auto& one : records) {
+                for (const auto& one : records_of(table, row)) {
                     all.insert(all.end(), {one.point.x, one.point.y, one.nearest.x, one.nearest.y});
                 }
             }
         }
         if constexpr (std::is_same_v<Query, ContactQuery>) {
-            std::vector<ContactCluster> manifold;
-            EXPECT_TRUE(table.manifold(row, manifold).ok());
-            for (const ContactCluster& one : manifold) {
+            for (const ContactCluster& one : manifold_of(table, row)) {
                 all.insert(all.end(),
                            {one.first.x, one.last.y, one.normal.x, one.normal.y, 1.0 * one.count});
             }

@@ -55,9 +55,9 @@ TEST_F(DevicePairPartsForHosts, AreRecordedWithRoomForWhatTheyFound) {
     add_crowd(random, 200, 2.5);
     const PenetrationQuery query{.tolerance = 0.02};
     const int dispatches = dispatches_of_a_part(query);
-    DevicePairTable<PenetrationQuery> whole(query);
+    PairTable<PenetrationQuery> whole(query, on_device);
     ASSERT_TRUE(world().update(whole).ok());
-    DevicePairTable<PenetrationQuery> in_parts(query);
+    PairTable<PenetrationQuery> in_parts(query, on_device);
     test_support::HostFrames frames(host_device(), 1);
     Status status;
     std::uint64_t frame = 0;
@@ -92,8 +92,8 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
                                      .records = records,
                                      .resident = true};
         const int dispatches = dispatches_of_a_part(query);
-        DevicePairTable<PenetrationQuery> whole(query);
-        DevicePairTable<PenetrationQuery> in_parts(query);
+        PairTable<PenetrationQuery> whole(query, on_device);
+        PairTable<PenetrationQuery> in_parts(query, on_device);
         ASSERT_TRUE(world().update(whole).ok());
         const Status status = small_world().update(in_parts);
         ASSERT_TRUE(status.ok()) << status.text();
@@ -119,8 +119,8 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
     add_crowd(random, 60, 2.0);
     const ContactQuery query{.tolerance = 0.1, .contact_distance = 0.05, .resident = true};
     const int dispatches = dispatches_of_a_part(query);
-    DevicePairTable<ContactQuery> whole(query);
-    DevicePairTable<ContactQuery> in_parts(query);
+    PairTable<ContactQuery> whole(query, on_device);
+    PairTable<ContactQuery> in_parts(query, on_device);
     ASSERT_TRUE(world().update(whole).ok());
     const Status status = small_world().update(in_parts);
     ASSERT_TRUE(status.ok()) << status.text();
@@ -153,7 +153,7 @@ TEST_F(DevicePairPartsForHosts, RefuseWhatTheHostCannotReach) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 3);
     add_crowd(random, 250, 2.5);
-    DevicePairTable<PenetrationQuery> table({.tolerance = 0.02, .resident = true});
+    PairTable<PenetrationQuery> table({.tolerance = 0.02, .resident = true}, on_device);
     const Status status = small_world().update(table);
     EXPECT_EQ(status.code(), StatusCode::too_large) << status.text();
     EXPECT_NE(status.message().find("the pairs that stay need"), std::string::npos)

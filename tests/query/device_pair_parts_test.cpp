@@ -16,7 +16,7 @@ class DevicePairParts : public DevicePairPartsTest {
 protected:
     /// Updates both tables, and compares them; the second one once more, without growing.
     template <class Query>
-    void compare(DevicePairTable<Query>& whole, DevicePairTable<Query>& in_parts) {
+    void compare(PairTable<Query>& whole, PairTable<Query>& in_parts) {
         const Status expected = world().update(whole);
         ASSERT_TRUE(expected.ok()) << expected.text();
         const std::vector<double> numbers = numbers_of(whole);
@@ -44,8 +44,8 @@ protected:
         Random random(seed);
         add_crowd(random, stars, 3.0);
         const int dispatches = dispatches_of_a_part(query);
-        DevicePairTable<Query> whole = table_of(query);
-        DevicePairTable<Query> in_parts = table_of(query);
+        PairTable<Query> whole = table_of(query);
+        PairTable<Query> in_parts = table_of(query);
         for (std::size_t frame = 0; frame < 3; ++frame) {
             SCOPED_TRACE("frame " + std::to_string(frame));
             ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
@@ -101,10 +101,10 @@ TEST_F(DevicePairParts, FindTheSameAmongAllShapes) {
     add_to_both(add_shape_to_both(rectangle({-1e9, -1.0}, {1e9, 1.0})), {});
     const PenetrationQuery points{.tolerance = 0.02, .points = PenetrationPoints::vertices};
     const ContactQuery near{.tolerance = 0.05, .contact_distance = 0.1, .records = false};
-    DevicePairTable<PenetrationQuery> whole(points);
-    DevicePairTable<PenetrationQuery> in_parts(points);
-    DevicePairTable<ContactQuery> contacts(near);
-    DevicePairTable<ContactQuery> contacts_in_parts(near);
+    PairTable<PenetrationQuery> whole(points, on_device);
+    PairTable<PenetrationQuery> in_parts(points, on_device);
+    PairTable<ContactQuery> contacts(near, on_device);
+    PairTable<ContactQuery> contacts_in_parts(near, on_device);
     for (int frame = 0; frame < 2; ++frame) {
         ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
         ASSERT_NO_FATAL_FAILURE(compare(contacts, contacts_in_parts));
@@ -122,8 +122,8 @@ TEST_F(DevicePairParts, AreDividedWhereThePairsAre) {
     add_crowd(random, 200, 40.0);
     const PenetrationQuery query{.tolerance = 0.02, .records = false};
     const int dispatches = dispatches_of_a_part(query);
-    DevicePairTable<PenetrationQuery> whole(query);
-    DevicePairTable<PenetrationQuery> in_parts(query);
+    PairTable<PenetrationQuery> whole(query, on_device);
+    PairTable<PenetrationQuery> in_parts(query, on_device);
     ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
     EXPECT_GE(parts(dispatches), 3);
 }
@@ -134,8 +134,8 @@ TEST_F(DevicePairParts, FollowTheInstances) {
     Random random(seed + 3);
     const PenetrationQuery query{.tolerance = 0.02, .records = false};
     const int dispatches = dispatches_of_a_part(query);
-    DevicePairTable<PenetrationQuery> whole(query);
-    DevicePairTable<PenetrationQuery> in_parts(query);
+    PairTable<PenetrationQuery> whole(query, on_device);
+    PairTable<PenetrationQuery> in_parts(query, on_device);
     for (const int count : {200, 30, 220, 3}) {
         SCOPED_TRACE(count);
         while (size_of_both() > static_cast<std::size_t>(count)) {
@@ -156,8 +156,8 @@ TEST_F(DevicePairParts, AreJoinedWherePairsAreFew) {
     add_crowd(random, 250, 2.0);
     const PenetrationQuery query{.tolerance = 0.02, .records = false};
     const int dispatches = dispatches_of_a_part(query);
-    DevicePairTable<PenetrationQuery> whole(query);
-    DevicePairTable<PenetrationQuery> in_parts(query);
+    PairTable<PenetrationQuery> whole(query, on_device);
+    PairTable<PenetrationQuery> in_parts(query, on_device);
     ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
     const int most = parts(dispatches);
     EXPECT_GE(most, 4);
@@ -177,7 +177,7 @@ TEST_F(DevicePairParts, MakeNothingInASteadyState) {
     add_crowd(random, 200, 2.5);
     const PenetrationQuery query{.tolerance = 0.02};
     const int dispatches = dispatches_of_a_part(query);
-    DevicePairTable<PenetrationQuery> table(query);
+    PairTable<PenetrationQuery> table(query, on_device);
     std::vector<Pose> poses;
     for (std::size_t i = 0; i < size_of_both(); ++i) {
         poses.push_back(any_pose(random, 2.5));
@@ -214,11 +214,11 @@ TEST_F(DevicePairParts, KeepToTheLimitOfMemory) {
     add_crowd(random, 250, 2.0);
     const PenetrationQuery query{.tolerance = 0.02, .records = false};
     const int dispatches = dispatches_of_a_part(query);
-    DevicePairTable<PenetrationQuery> whole(query);
-    DevicePairTable<PenetrationQuery> in_parts(query);
+    PairTable<PenetrationQuery> whole(query, on_device);
+    PairTable<PenetrationQuery> in_parts(query, on_device);
     ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
     EXPECT_GE(parts(dispatches), 2);
-    DevicePairTable<PenetrationQuery> too_large({.tolerance = 0.001});
+    PairTable<PenetrationQuery> too_large({.tolerance = 0.001}, on_device);
     const Status status = small_world().update(too_large);
     EXPECT_EQ(status.code(), StatusCode::too_large) << status.text();
     EXPECT_NE(status.message().find("Settings::memory_limit is 6291456"), std::string::npos)
@@ -230,7 +230,7 @@ TEST_F(DevicePairParts, RefuseWhatOneInstanceHasTooMuchOf) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 7);
     add_crowd(random, 10, 0.5);
-    DevicePairTable<PenetrationQuery> table({.tolerance = 1e-5});
+    PairTable<PenetrationQuery> table({.tolerance = 1e-5}, on_device);
     const Status status = small_world().update(table);
     EXPECT_EQ(status.code(), StatusCode::too_large) << status.text();
     EXPECT_NE(status.message().find("the pairs of one instance need"), std::string::npos)
@@ -245,7 +245,7 @@ TEST_F(DevicePairParts, AreTimedTogether) {
     ASSERT_NO_FATAL_FAILURE(make_small(little, settings));
     Random random(seed + 8);
     add_crowd(random, 200, 2.0);
-    DevicePairTable<PenetrationQuery> table({.tolerance = 0.02});
+    PairTable<PenetrationQuery> table({.tolerance = 0.02}, on_device);
     ASSERT_TRUE(small_world().update(table).ok());
     EXPECT_EQ(table.timings().passes.size(), 15U);
     for (const PassTime& pass : table.timings().passes) {

@@ -55,7 +55,7 @@ protected:
 
     /// Records and collects frames, of which the first ones make what the others use.
     template <class Record>
-    void expect_nothing_made(DevicePairTableBase& table, const Record& record) {
+    void expect_nothing_made(PairTableBase& table, const Record& record) {
         test_support::HostFrames host(host_device(), 1);
         ASSERT_TRUE(world_->update(table).ok());  // makes room
         for (std::uint64_t frame = first_frame_; frame < first_frame_ + 100; ++frame) {
@@ -101,7 +101,7 @@ protected:
 
 TEST_F(DevicePairRecordingCosts, AreNoAllocationNoObjectNoWaitAndNoSubmission) {
     const ContactQuery query{.tolerance = 0.05, .contact_distance = 0.05, .resident = true};
-    DevicePairTable table(query);
+    PairTable table(query, on_device);
     expect_nothing_made(
         table, [&](const Recording& recording) { return world_->record(table, recording); });
     PoseBuffer buffer = make_buffer();
@@ -111,9 +111,9 @@ TEST_F(DevicePairRecordingCosts, AreNoAllocationNoObjectNoWaitAndNoSubmission) {
     }
     buffer.write(poses);
     gpu().finish();
-    DevicePairTable on_device(query);
-    expect_nothing_made(on_device, [&](const Recording& recording) {
-        return world_->record(on_device, buffer.poses(), recording);
+    PairTable of_host(query, on_device);
+    expect_nothing_made(of_host, [&](const Recording& recording) {
+        return world_->record(of_host, recording, at_poses(buffer.poses()));
     });
 }
 

@@ -52,8 +52,8 @@ protected:
             added_.push_back(*handle);
         }
     }
-    Status record(DevicePairTableBase& table, std::uint64_t frame, const Limits& limits = {}) {
-        return own_world_->record(table, {.commands = frames_->begin(frame), .frame = frame},
+    Status record(PairTableBase& table, std::uint64_t frame, const Limits& limits = {}) {
+        return own_world_->record(table, {.commands = frames_->begin(frame), .frame = frame}, {},
                                   limits);
     }
     void execute(std::uint64_t frame) {
@@ -61,7 +61,7 @@ protected:
         frames_->wait(frame);
         own_->frame_completed(frame);
     }
-    Status run(DevicePairTableBase& table, std::uint64_t frame) {
+    Status run(PairTableBase& table, std::uint64_t frame) {
         Status status = record(table, frame);
         EXPECT_TRUE(status.ok()) << status.text();
         execute(frame);
@@ -83,10 +83,10 @@ protected:
 TEST_F(DevicePairRecordingErrors, SayThatThereWasNoRoomAndMakeIt) {
     crowd(120);
     const PenetrationQuery query{.tolerance = 0.05, .resident = true};
-    DevicePairTable reference(query);
+    PairTable reference(query, on_device);
     ASSERT_TRUE(own_world_->update(reference).ok());
     for (const bool is_collected : {true, false}) {
-        DevicePairTable table(query);
+        PairTable table(query, on_device);
         const std::uint64_t first = is_collected ? 0 : 100;
         const Status status = run(table, first);
         expect(status, StatusCode::overflow, "if they are recorded anew");
@@ -129,7 +129,7 @@ TEST_F(DevicePairRecordingErrors, OfMemoryThatIsNeverEnough) {
     for (int i = 0; i < 400; ++i) {
         ASSERT_TRUE(world.add({.shape = square, .pose = {{0.001 * i, 0.0}}}).has_value());
     }
-    DevicePairTable table(IntersectionTestQuery{});
+    PairTable table(IntersectionTestQuery{}, on_device);
     std::uint64_t frame = 0;
     Status status;
     for (; status.ok() && frame < 10; ++frame) {
@@ -149,7 +149,7 @@ TEST_F(DevicePairRecordingErrors, OfMemoryThatIsNeverEnough) {
 
 TEST_F(DevicePairRecordingErrors, OfCommandsAndFramesThatCannotBeUsed) {
     crowd(3);
-    DevicePairTable table(IntersectionTestQuery{});
+    PairTable table(IntersectionTestQuery{}, on_device);
     ASSERT_TRUE(own_world_->update(table).ok());
     expect(own_world_->record(table, {}), StatusCode::invalid_submission,
            "Recording::commands is null");
@@ -163,10 +163,10 @@ TEST_F(DevicePairRecordingErrors, OfCommandsAndFramesThatCannotBeUsed) {
     expect(own_world_->record(table, short_one), StatusCode::invalid_settings, "Recording");
     EXPECT_EQ(table.size(), 3U);
     EXPECT_FALSE(own_world_->is_recorded(table));
-    DevicePairTable<PenetrationQuery> bad({.tolerance = -1.0});
+    PairTable<PenetrationQuery> bad({.tolerance = -1.0}, on_device);
     expect(own_world_->record(bad, {.commands = commands, .frame = 8}), StatusCode::invalid_query,
            "record: ");
-    expect(own_world_->record(bad, DevicePoses{}, {.commands = commands, .frame = 8}),
+    expect(own_world_->record(bad, {.commands = commands, .frame = 8}, at_poses(DevicePoses{})),
            StatusCode::invalid_query, "record: ");
     EXPECT_EQ(bad.collect().code(), StatusCode::not_ready);
     frames_->abandon(7);
@@ -176,12 +176,12 @@ TEST_F(DevicePairRecordingErrors, OfCommandsAndFramesThatCannotBeUsed) {
     expect(other.record(table, {.commands = commands, .frame = 8}),
            StatusCode::unsupported_technique, "record: ");
     EXPECT_FALSE(other.is_recorded(table));
-    table = DevicePairTable(IntersectionTestQuery{});
+    table = PairTable(IntersectionTestQuery{}, on_device);
 }
 
 TEST_F(DevicePairRecordingErrors, OfFramesThatAreNotComplete) {
     crowd(3);
-    DevicePairTable table(IntersectionTestQuery{});
+    PairTable table(IntersectionTestQuery{}, on_device);
     EXPECT_FALSE(table.is_ready());
     ASSERT_TRUE(record(table, 4).ok());
     frames_->submit(4);
@@ -200,7 +200,7 @@ TEST_F(DevicePairRecordingErrors, OfFramesThatAreNotComplete) {
     // What comes two frames later implies it, as with batches.
     ASSERT_TRUE(own_world_->record(table, {.commands = commands, .frame = 5}).ok());
     frames_->submit(5);
-    DevicePairTable other(IntersectionTestQuery{});
+    PairTable other(IntersectionTestQuery{}, on_device);
     ASSERT_TRUE(record(other, 7).ok());
     EXPECT_TRUE(table.is_ready());
     ASSERT_TRUE(own_world_->update(table).ok());
@@ -212,7 +212,7 @@ TEST_F(DevicePairRecordingErrors, OfFramesThatAreNotComplete) {
 
 TEST_F(DevicePairRecordingErrors, OfCommandsThatWereNotExecuted) {
     crowd(120);
-    DevicePairTable table(PenetrationQuery{.tolerance = 0.05});
+    PairTable table(PenetrationQuery{.tolerance = 0.05}, on_device);
     ASSERT_TRUE(own_world_->update(table).ok());
     for (const std::uint64_t frame : {0U, 1U}) {
         ASSERT_TRUE(record(table, frame).ok());
@@ -234,10 +234,10 @@ TEST_F(DevicePairRecordingErrors, OfPosesThatAreNoneLeaveWhatWasRecorded) {
     std::vector<HostPose> bad = good;
     bad[1][0] = std::numeric_limits<float>::quiet_NaN();
     PoseBuffer buffer = make_buffer();
-    DevicePairTable table(IntersectionTestQuery{});
+    PairTable table(IntersectionTestQuery{}, on_device);
     KeptCommands kept(host_device());
     const VkCommandBuffer search = kept.begin();
-    ASSERT_TRUE(own_world_->record(table, buffer.poses(), {.commands = search}).ok());
+    ASSERT_TRUE(own_world_->record(table, {.commands = search}, at_poses(buffer.poses())).ok());
     kept.end(search);
     own_->frame_completed(0);
     for (int i = 0; i < 2; ++i) {
@@ -261,8 +261,8 @@ TEST_F(DevicePairRecordingErrors, CutByLimitsLeaveWhatWasRecorded) {
     for (int i = 0; i < 4; ++i) {  // single precision cannot tell how deep the corners are
         ASSERT_TRUE(own_world_->add({.shape = square_, .pose = {{2.0 * i, 0.5 * i}}}).has_value());
     }
-    DevicePairTable table(
-        PenetrationQuery{.tolerance = 1e-5, .points = PenetrationPoints::vertices});
+    PairTable table(PenetrationQuery{.tolerance = 1e-5, .points = PenetrationPoints::vertices},
+                    on_device);
     ASSERT_TRUE(own_world_->update(table).ok());
     ASSERT_GT(table.left_to_cpu(), 0U);
     const std::uint32_t size = table.size();
@@ -288,7 +288,7 @@ TEST_F(DevicePairRecordingErrors, CutByLimitsLeaveWhatWasRecorded) {
 TEST_F(DevicePairRecordingErrors, TellWhatIsStillAboutTheWorld) {
     crowd(3);
     const ShapeHandle other = *own_->add_shape(rectangle({0.0, 0.0}, {9.0, 1.0}));
-    DevicePairTable table(IntersectionTestQuery{});
+    PairTable table(IntersectionTestQuery{}, on_device);
     EXPECT_FALSE(own_world_->is_recorded(table));
     std::uint64_t frame = 0;
     const auto expect_anew = [&](const char* change, bool is_anew) {
@@ -321,7 +321,7 @@ TEST_F(DevicePairRecordingErrors, TellWhatIsStillAboutTheWorld) {
 }
 
 TEST_F(DevicePairRecordingErrors, OfWorldsWithoutPairsAreNone) {
-    DevicePairTable table(PenetrationQuery{.tolerance = 0.1, .resident = true});
+    PairTable table(PenetrationQuery{.tolerance = 0.1, .resident = true}, on_device);
     for (std::uint64_t frame = 0; frame < 2; ++frame) {
         const Status status = run(table, frame);
         EXPECT_TRUE(status.ok()) << status.text();
@@ -338,7 +338,7 @@ TEST_F(DevicePairRecordingErrors, OfWorldsWithoutPairsAreNone) {
 TEST_F(DevicePairRecordingErrors, AreLoggedWhereATableGoesTooEarly) {
     crowd(3);
     for (const bool is_complete : {true, false}) {
-        DevicePairTable table(IntersectionTestQuery{});
+        PairTable table(IntersectionTestQuery{}, on_device);
         const std::uint64_t frame = is_complete ? 0 : 1;
         ASSERT_TRUE(record(table, frame).ok());
         frames_->submit(frame);

@@ -28,9 +28,8 @@ protected:
 
     /// All that a table says.
     template <class Query>
-    static std::vector<double> numbers_of(DevicePairTable<Query>& table) {
+    static std::vector<double> numbers_of(PairTable<Query>& table) {
         std::vector<double> numbers{1.0 * table.candidates(), 1.0 * table.left_to_cpu()};
-        std::vector<typename Query::Result::Record> records;
         for (std::uint32_t i = 0; i < table.size(); ++i) {
             const auto row = table.row(i);
             EXPECT_TRUE(row.has_value()) << row.error().text();
@@ -38,9 +37,6 @@ protected:
                                            row->intersects ? 1.0 : 0.0});
             if constexpr (requires { row->count; }) {
                 numbers.push_back(row->count);
-                if (table.query().records) {
-                    EXPECT_TRUE(table.records(i, records).ok());
-                }
             }
             if constexpr (requires { row->deepest; }) {
                 numbers.push_back(row->deepest.depth);
@@ -48,7 +44,7 @@ protected:
             if constexpr (requires { row->distance; }) {
                 numbers.push_back(row->distance);
             }
-            for (const auto& record : records) {
+            for (const auto& record : records_of(table, i)) {
                 if constexpr (requires { record.nearest; }) {
                     numbers.insert(numbers.end(), {record.point.x, record.point.y, record.nearest.x,
                                                    record.nearest.y});
@@ -138,12 +134,12 @@ protected:
 
     /// Brings a table up to date with each of the poses, so that it has room for all.
     template <class Query, class Use>
-    void update_with_each(DevicePairTable<Query>& table, PoseBuffer& buffer,
+    void update_with_each(PairTable<Query>& table, PoseBuffer& buffer,
                           const std::vector<std::vector<HostPose>>& poses, const Use& use) {
         for (const std::vector<HostPose>& each : poses) {
             buffer.write(each);
             gpu().finish();
-            const Status status = world().update(table, buffer.poses());
+            const Status status = world().update(table, at_poses(buffer.poses()));
             ASSERT_TRUE(status.ok()) << status.text();
             use();
         }
@@ -157,7 +153,7 @@ protected:
         const std::vector<std::vector<HostPose>> poses{any_poses(random), any_poses(random),
                                                        any_poses(random)};
         PoseBuffer buffer = make_buffer();
-        DevicePairTable<Query> reference(query);
+        PairTable<Query> reference(query, on_device);
         std::vector<std::vector<std::uint32_t>> expected;
         std::vector<double> last_rows;
         update_with_each(reference, buffer, poses, [&] {
@@ -168,13 +164,13 @@ protected:
         EXPECT_NE(expected[0], expected[1]);
         EXPECT_GT(expected[0].size(), 1000U);
 
-        DevicePairTable<Query> table(query);
+        PairTable<Query> table(query, on_device);
         update_with_each(table, buffer, poses, [] {});
         KeptCommands kept(host_device());
         const std::uint64_t frame = next_frame();
         const VkCommandBuffer search = kept.begin();
         const Status status =
-            world().record(table, buffer.poses(), {.commands = search, .frame = frame});
+            world().record(table, {.commands = search, .frame = frame}, at_poses(buffer.poses()));
         ASSERT_TRUE(status.ok()) << status.text();
         kept.end(search);
         const ResidentPairs pairs = *table.resident();
@@ -219,17 +215,19 @@ protected:
         const std::vector<std::vector<HostPose>> poses{any_poses(random), any_poses(random),
                                                        any_poses(random), any_poses(random)};
         PoseBuffer buffer = make_buffer();
-        DevicePairTable<Query> reference(query, reach...);
+        PairTable<Query> reference(query, within((0.0 + ... + reach), on_device));
         std::vector<std::vector<double>> expected;
         update_with_each(reference, buffer, poses,
                          [&] { expected.push_back(numbers_of(reference)); });
-        DevicePairTable<Query> table(query, reach...);
+        PairTable<Query> table(query, within((0.0 + ... + reach), on_device));
         update_with_each(table, buffer, poses, [] {});
         KeptCommands kept(host_device());
         const std::uint64_t frame = next_frame();
         const VkCommandBuffer search = kept.begin();
         ASSERT_TRUE(
-            world().record(table, buffer.poses(), {.commands = search, .frame = frame}).ok());
+            world()
+                .record(table, {.commands = search, .frame = frame}, at_poses(buffer.poses()))
+                .ok());
         kept.end(search);
         ASSERT_EQ(expected.size(), poses.size());
         for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -273,15 +271,16 @@ TEST_F(DevicePairRecordings, MayFollowThemselvesInOneCommandBuffer) {
     const std::vector<std::vector<HostPose>> poses{any_poses(random), any_poses(random)};
     PoseBuffer buffer = make_buffer();
     const ContactQuery query{.tolerance = 0.03, .contact_distance = 0.05, .resident = true};
-    DevicePairTable reference(query);
+    PairTable reference(query, on_device);
     std::vector<double> expected;
     update_with_each(reference, buffer, poses, [&] { expected = numbers_of(reference); });
-    DevicePairTable table(query);
+    PairTable table(query, on_device);
     update_with_each(table, buffer, poses, [] {});
     KeptCommands kept(host_device());
     const std::uint64_t frame = next_frame();
     const VkCommandBuffer search = kept.begin(VK_COMMAND_BUFFER_LEVEL_SECONDARY);
-    ASSERT_TRUE(world().record(table, buffer.poses(), {.commands = search, .frame = frame}).ok());
+    ASSERT_TRUE(
+        world().record(table, {.commands = search, .frame = frame}, at_poses(buffer.poses())).ok());
     kept.end(search);
     const VkCommandBuffer primary = kept.begin();
     for (const std::vector<HostPose>& each : poses) {
@@ -301,9 +300,9 @@ TEST_F(DevicePairRecordings, TakeTurnsInTheFramesOfAHost) {
     add_some(random, 2);
     HostFrames host(host_device(), 2);
     const ContactQuery query{.tolerance = 0.03, .contact_distance = 0.05};
-    DevicePairTable reference(query);
-    std::array<DevicePairTable<ContactQuery>, 2> tables{DevicePairTable(query),
-                                                        DevicePairTable(query)};
+    PairTable reference(query, on_device);
+    std::array<PairTable<ContactQuery>, 2> tables{PairTable(query, on_device),
+                                                  PairTable(query, on_device)};
     std::array<std::vector<double>, 2> expected;
     const std::uint64_t first = next_frame();
     for (int i = 0; i < 6; ++i) {

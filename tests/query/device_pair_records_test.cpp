@@ -24,11 +24,10 @@ TEST_F(DevicePairRecords, AreAsManyAsTheirRowsCount) {
         }
         for (const PenetrationPoints points :
              {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
-            DevicePairTable table(PenetrationQuery{.tolerance = 1.12e-3, .points = points});
+            PairTable table(PenetrationQuery{.tolerance = 1.12e-3, .points = points}, on_device);
             ASSERT_TRUE(world().update(table).ok());
-            std::vector<PenetrationRecord> records;
             for (std::uint32_t i = 0; i < table.size(); ++i) {
-                ASSERT_TRUE(table.records(i, records).ok());
+                const std::vector<PenetrationRecord> records = records_of(table, i);
                 EXPECT_EQ(records.size(), table.row(i)->count) << "row " << i;
                 records_of_all += static_cast<std::uint32_t>(records.size());
             }

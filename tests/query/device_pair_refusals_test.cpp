@@ -1,4 +1,5 @@
 #include <tests/query/query_test.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <string>
 
@@ -14,11 +15,11 @@ protected:
     /// leaves no row.
     template <class Query>
     static void expect_refused(Context& context, const Query& query, StatusCode code) {
-        DevicePairTable<Query> table(query);
+        PairTable<Query> table(query, on_device);
         update(context, table, code);
     }
     template <class Query>
-    static void update(Context& context, DevicePairTable<Query>& table, StatusCode code) {
+    static void update(Context& context, PairTable<Query>& table, StatusCode code) {
         const Expected<ShapeHandle> shape = context.add_shape(rectangle({0, 0}, {4, 4}));
         ASSERT_TRUE(shape.has_value()) << shape.error().text();
         Expected<World> world = World::create(context);
@@ -64,7 +65,7 @@ TEST_F(DevicePairRefusals, OfOneAmongTooManyOthers) {
         const Pose pose{{2.0 * (i % 250), 2.0 * (i / 250)}, 0.0};
         ASSERT_TRUE(world->add({.shape = *shape, .pose = pose}).has_value());
     }
-    DevicePairTable table(IntersectionTestQuery{});
+    PairTable table(IntersectionTestQuery{}, on_device);
     const Status status = world->update(table);
     EXPECT_EQ(status.code(), StatusCode::too_large) << status.text();
     EXPECT_NE(status.message().find("overlaps with those of some 50,000 others"), std::string::npos)
@@ -88,12 +89,12 @@ TEST_F(DevicePairRefusals, OfQueriesThatAreNotForTheDeviceToCompute) {
 
 /// Rows of an earlier update do not stay.
 TEST_F(DevicePairRefusals, LeaveATableThatWasFilledEmpty) {
-    DevicePairTable<PenetrationQuery> table({.tolerance = 0.1});
+    PairTable<PenetrationQuery> table({.tolerance = 0.1}, on_device);
     update(context(), table, StatusCode::ok);
     Expected<Context> without_device = Context::create_cpu();
     ASSERT_TRUE(without_device.has_value()) << without_device.error().text();
     update(*without_device, table, StatusCode::unsupported_technique);
-    table = DevicePairTable<PenetrationQuery>({.tolerance = 0.1});
+    table = PairTable<PenetrationQuery>({.tolerance = 0.1}, on_device);
 }
 
 }  // namespace

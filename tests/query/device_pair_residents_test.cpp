@@ -108,7 +108,7 @@ protected:
 
     /// Updates a table and compares what it left on the device with its rows.
     template <class Query>
-    void compare(DevicePairTable<Query>& table) {
+    void compare(PairTable<Query>& table) {
         ASSERT_TRUE(world().submit(table).ok());
         const Status status = table.collect();
         ASSERT_TRUE(status.ok()) << status.text();
@@ -140,7 +140,7 @@ protected:
     }
 
     template <class Query>
-    void compare_row(DevicePairTable<Query>& table, std::uint32_t i, const PairRow<Query>& row,
+    void compare_row(PairTable<Query>& table, std::uint32_t i, const PairRow<Query>& row,
                      const PairData& pair, const Read& all, const Vector2& origin) {
         SCOPED_TRACE("row " + std::to_string(i));
         ASSERT_LE(pair.first_record + pair.record_count, all.records.size());
@@ -151,9 +151,7 @@ protected:
         if ((pair.flags & resident_pair_flags::intersects) != 0) {
             EXPECT_TRUE(row.intersects);
         }
-        std::vector<typename Query::Result::Record> exact;
-        ASSERT_TRUE(table.records(i, exact).ok());
-        for (const auto& one : exact) {
+        for (const auto& one : records_of(table, i)) {
             bool is_of_b = false;
             if constexpr (std::is_same_v<Query, ContactQuery>) {
                 is_of_b = one.on == Side::b;
@@ -191,10 +189,11 @@ TEST_F(DevicePairResidents, ArePenetrationsAsTheDeviceFindsThem) {
     for_each_case(seed, 3, [&](Random& random) {
         for (const PenetrationPoints points :
              {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
-            DevicePairTable table(PenetrationQuery{.tolerance = 0.02,
-                                                   .points = points,
-                                                   .technique = Technique::compute,
-                                                   .resident = true});
+            PairTable table(PenetrationQuery{.tolerance = 0.02,
+                                             .points = points,
+                                             .technique = Technique::compute,
+                                             .resident = true},
+                            on_device);
             run_history(random, {4, 40, 5.0}, [&] { compare(table); });
         }
     });
@@ -205,8 +204,8 @@ TEST_F(DevicePairResidents, ArePenetrationsAsTheDeviceFindsThem) {
 
 TEST_F(DevicePairResidents, AreContactsAsTheDeviceFindsThem) {
     for_each_case(seed, 3, [&](Random& random) {
-        DevicePairTable table(
-            ContactQuery{.tolerance = 0.02, .contact_distance = 0.05, .resident = true});
+        PairTable table(ContactQuery{.tolerance = 0.02, .contact_distance = 0.05, .resident = true},
+                        on_device);
         run_history(random, {4, 30, 5.0}, [&] { compare(table); });
     });
     EXPECT_GT(rows_, 200U);
@@ -219,7 +218,7 @@ TEST_F(DevicePairResidents, SayThatTheyAreNotAllThere) {
     for (int i = 0; i < 120; ++i) {
         add(square, {.translation = {0.01 * i, 0.005 * i}, .angle = 0.1 * i});
     }
-    DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true});
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true}, on_device);
     ASSERT_TRUE(world().submit(table).ok());
     const Read before = read(*table.resident());
     EXPECT_EQ(before.pair_header.overflow, 1U);
@@ -248,10 +247,10 @@ TEST_F(DevicePairResidents, AreRelativeToTheOriginOfTheHost) {
     poses.buffer = buffer.buffer;
     poses.size = sizeof(places);
     poses.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true});
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true}, on_device);
     for (const Vector2& origin : {Vector2{}, Vector2{1000.0, -5.0}, Vector2{7.0, 7.0}}) {
         poses.origin = origin;
-        ASSERT_TRUE(world().update(table, poses).ok());
+        ASSERT_TRUE(world().update(table, at_poses(poses)).ok());
         EXPECT_EQ(table.resident()->origin, origin);
         EXPECT_EQ(read(*table.resident()).pairs.size(), 2U);
         EXPECT_NEAR(table.row(0)->deepest.nearest.x, origin.x + 1.0, 1.0);
@@ -268,7 +267,7 @@ TEST_F(DevicePairResidents, OfATableThatStartsAnewHaveAnotherRevision) {
     for (int i = 0; i < 2; ++i) {
         ASSERT_TRUE(other->add({.shape = square, .pose = {{0.3 * i, 0.0}, 0.0}}).has_value());
     }
-    DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true});
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true}, on_device);
     std::set<std::uint64_t> revisions;
     for (int i = 0; i < 3; ++i) {
         for (World* const each : {&world(), &*other}) {
@@ -280,7 +279,7 @@ TEST_F(DevicePairResidents, OfATableThatStartsAnewHaveAnotherRevision) {
 
 TEST_F(DevicePairResidents, OfNothingHaveACountOfZero) {
     const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
-    DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true});
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true}, on_device);
     EXPECT_EQ(table.resident().error().code(), StatusCode::not_ready);
     add(square, {});
     ASSERT_TRUE(world().update(table).ok());
@@ -288,7 +287,7 @@ TEST_F(DevicePairResidents, OfNothingHaveACountOfZero) {
     add(square, {.translation = {5.0, 0.0}});
     ASSERT_TRUE(world().update(table).ok());
     EXPECT_EQ(read(*table.resident()).pairs.size(), 0U);
-    DevicePairTable rows_alone(PenetrationQuery{.tolerance = 0.05});
+    PairTable rows_alone(PenetrationQuery{.tolerance = 0.05}, on_device);
     ASSERT_TRUE(world().update(rows_alone).ok());
     EXPECT_EQ(rows_alone.resident().error().code(), StatusCode::invalid_query);
 }

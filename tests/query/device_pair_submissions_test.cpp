@@ -35,13 +35,13 @@ protected:
         std::uint32_t left_to_cpu = 0;
     };
 
-    static Rows rows_of(DevicePairTable<PenetrationQuery>& table) {
+    static Rows rows_of(PairTable<PenetrationQuery>& table) {
         Rows all;
         for (std::uint32_t i = 0; i < table.size(); ++i) {
             const auto row = table.row(i);
             EXPECT_TRUE(row.has_value()) << row.error().text();
             all.rows.push_back(*row);
-            EXPECT_TRUE(table.records(i, all.records.emplace_back()).ok());
+            all.records.push_back(records_of(table, i));
         }
         all.candidates = table.candidates();
         all.left_to_cpu = table.left_to_cpu();
@@ -89,8 +89,8 @@ protected:
 
 TEST_F(DevicePairSubmissions, TellOfTheWorldAsItWas) {
     crowd();
-    DevicePairTable at_once(close_calls);
-    DevicePairTable by_halves(close_calls);
+    PairTable at_once(close_calls, on_device);
+    PairTable by_halves(close_calls, on_device);
     for (int i = 0; i < 4; ++i) {
         ASSERT_TRUE(world().update(at_once).ok());
         const Rows expected = rows_of(at_once);
@@ -126,9 +126,9 @@ TEST_F(DevicePairSubmissions, TakeTurns) {
         instances.push_back(add(add_shape(rings), any_pose(random, 3.0)));
         instances.push_back(add(world().instance(instances.back())->shape, any_pose(random, 3.0)));
     }
-    DevicePairTable reference(penetrations);
-    std::array<DevicePairTable<PenetrationQuery>, 2> tables{DevicePairTable(penetrations),
-                                                            DevicePairTable(penetrations)};
+    PairTable reference(penetrations, on_device);
+    std::array<PairTable<PenetrationQuery>, 2> tables{PairTable(penetrations, on_device),
+                                                      PairTable(penetrations, on_device)};
     std::optional<Rows> before;
     for (std::size_t frame = 0; frame < 8; ++frame) {
         for (const InstanceHandle instance : instances) {
@@ -136,7 +136,7 @@ TEST_F(DevicePairSubmissions, TakeTurns) {
         }
         ASSERT_TRUE(world().submit(tables[frame % 2]).ok());
         if (before) {
-            DevicePairTable<PenetrationQuery>& last = tables[(frame + 1) % 2];
+            PairTable<PenetrationQuery>& last = tables[(frame + 1) % 2];
             ASSERT_TRUE(last.collect().ok());
             expect_equal(rows_of(last), *before);
         }
@@ -152,9 +152,9 @@ TEST_F(DevicePairSubmissions, GrowWhenTheyAreCollected) {
     for (int i = 0; i < 120; ++i) {
         add(square, {.translation = {0.01 * i, 0.005 * i}, .angle = 0.1 * i});
     }
-    DevicePairTable reference(IntersectionTestQuery{});
+    PairTable reference(IntersectionTestQuery{}, on_device);
     ASSERT_TRUE(world().update(reference).ok());
-    DevicePairTable table(IntersectionTestQuery{});
+    PairTable table(IntersectionTestQuery{}, on_device);
     ASSERT_TRUE(world().submit(table).ok());
     ASSERT_TRUE(table.collect().ok());
     EXPECT_EQ(table.size(), 120U * 119U / 2U);
@@ -163,7 +163,7 @@ TEST_F(DevicePairSubmissions, GrowWhenTheyAreCollected) {
 
 TEST_F(DevicePairSubmissions, AreReadyOnceTheDeviceIsDone) {
     crowd();
-    DevicePairTable table(penetrations);
+    PairTable table(penetrations, on_device);
     EXPECT_FALSE(table.is_ready());
     ASSERT_TRUE(world().submit(table).ok());
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
@@ -178,7 +178,7 @@ TEST_F(DevicePairSubmissions, AreReadyOnceTheDeviceIsDone) {
 
 TEST_F(DevicePairSubmissions, AreCollectedOnce) {
     crowd();
-    DevicePairTable table(penetrations);
+    PairTable table(penetrations, on_device);
     const Status early = table.collect();
     EXPECT_EQ(early.code(), StatusCode::not_ready) << early.text();
     ASSERT_TRUE(world().submit(table).ok());
@@ -195,7 +195,7 @@ TEST_F(DevicePairSubmissions, AreCollectedOnce) {
 
 TEST_F(DevicePairSubmissions, OfBadQueriesAreRefused) {
     crowd();
-    DevicePairTable<PenetrationQuery> table({.tolerance = -1.0});
+    PairTable<PenetrationQuery> table({.tolerance = -1.0}, on_device);
     const Status status = world().submit(table);
     EXPECT_EQ(status.code(), StatusCode::invalid_query);
     EXPECT_EQ(status.message().find("submit: "), 0U) << status.text();
@@ -203,7 +203,7 @@ TEST_F(DevicePairSubmissions, OfBadQueriesAreRefused) {
 }
 
 TEST_F(DevicePairSubmissions, OfAnEmptyWorldAreReadyAtOnce) {
-    DevicePairTable table(penetrations);
+    PairTable table(penetrations, on_device);
     ASSERT_TRUE(world().submit(table).ok());
     EXPECT_TRUE(table.is_ready());
     ASSERT_TRUE(table.collect().ok());
@@ -212,10 +212,10 @@ TEST_F(DevicePairSubmissions, OfAnEmptyWorldAreReadyAtOnce) {
 
 TEST_F(DevicePairSubmissions, CutByLimitsAreNone) {
     crowd();
-    DevicePairTable reference(close_calls);
+    PairTable reference(close_calls, on_device);
     ASSERT_TRUE(world().update(reference).ok());
     const Rows expected = rows_of(reference);
-    DevicePairTable table(close_calls);
+    PairTable table(close_calls, on_device);
     const std::uint64_t cuts = cut_everywhere(dense, [&](std::uint64_t n) {
         SCOPED_TRACE("cut at checkpoint " + std::to_string(n));
         EXPECT_TRUE(world().submit(table).ok());
@@ -235,16 +235,16 @@ TEST_F(DevicePairSubmissions, CutByLimitsAreNone) {
 TEST_F(DevicePairSubmissions, MayBeGivenUp) {
     crowd();
     {
-        DevicePairTable given_up(penetrations);
+        PairTable given_up(penetrations, on_device);
         ASSERT_TRUE(world().submit(given_up).ok());
     }
-    DevicePairTable replaced(penetrations);
+    PairTable replaced(penetrations, on_device);
     ASSERT_TRUE(world().submit(replaced).ok());
-    replaced = DevicePairTable(penetrations);
+    replaced = PairTable(penetrations, on_device);
     EXPECT_EQ(replaced.collect().code(), StatusCode::not_ready);
-    DevicePairTable moved(penetrations);
+    PairTable moved(penetrations, on_device);
     ASSERT_TRUE(world().submit(moved).ok());
-    DevicePairTable table = std::move(moved);
+    PairTable table = std::move(moved);
     ASSERT_TRUE(table.collect().ok());
     EXPECT_GT(table.size(), 0U);
 }

@@ -2,11 +2,14 @@
 
 #include <tests/query/query_test.hpp>
 #include <tests/support/host_gpu.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,6 +32,73 @@ inline std::vector<Rings> some_shapes(Random& random) {
     shapes.push_back(scaled_and_moved(coast(random, 200, 0.3), 8.0, {0.0, 0.0}));
     return shapes;
 }
+
+// A row, a record and a cluster of the device are those of the CPU, as the answers of two
+// techniques are.
+
+inline void expect_equal(const PenetrationRecord& found, const PenetrationRecord& truth,
+                         double tolerance) {
+    EXPECT_NEAR(found.depth, truth.depth, tolerance / 1000.0);
+    EXPECT_EQ(found.point, truth.point);
+    if (truth.unique && found.unique) {
+        EXPECT_NEAR(found.nearest.x, truth.nearest.x, 0.1 * tolerance + 0.1 * truth.depth);
+        EXPECT_NEAR(found.nearest.y, truth.nearest.y, 0.1 * tolerance + 0.1 * truth.depth);
+    }
+}
+inline void expect_equal(const ContactRecord& found, const ContactRecord& truth, double tolerance) {
+    EXPECT_NEAR(found.distance, truth.distance, tolerance / 1000.0);
+    EXPECT_EQ(found.point, truth.point);
+    EXPECT_EQ(found.on, truth.on);
+    EXPECT_EQ(found.inside, truth.inside);
+    if (truth.unique && found.unique) {
+        EXPECT_NEAR(found.nearest.x, truth.nearest.x, 0.1 * tolerance + 0.1 * truth.distance);
+        EXPECT_NEAR(found.nearest.y, truth.nearest.y, 0.1 * tolerance + 0.1 * truth.distance);
+    }
+}
+inline void expect_equal(const ContactCluster& found, const ContactCluster& truth,
+                         double tolerance) {
+    const double near = tolerance / 100.0;
+    EXPECT_NEAR(found.first.x, truth.first.x, near);
+    EXPECT_NEAR(found.last.y, truth.last.y, near);
+    EXPECT_NEAR(found.normal.x, truth.normal.x, 1e-3);
+    EXPECT_NEAR(found.extreme.distance, truth.extreme.distance, near);
+}
+inline void expect_equal(const PenetrationValues& found, const PenetrationValues& truth,
+                         double tolerance) {
+    EXPECT_EQ(found.count, truth.count);
+    expect_equal(found.deepest, truth.deepest, tolerance);
+}
+inline void expect_equal(const ContactValues& found, const ContactValues& truth,
+                         double /*tolerance*/) {
+    EXPECT_EQ(found.count, truth.count);
+}
+inline void expect_equal(const IntersectionTestValues& /*found*/,
+                         const IntersectionTestValues& /*truth*/, double /*tolerance*/) {}
+/// Of distances: the same, bit for bit.
+template <class Values>
+void expect_equal(const Values& found, const Values& truth, double /*tolerance*/) {
+    EXPECT_EQ(found.distance, truth.distance);
+    EXPECT_EQ(found.direction, truth.direction);
+    EXPECT_EQ(found.unique, truth.unique);
+}
+template <class Element>
+void expect_all_equal(std::span<const Element> found, std::span<const Element> truth,
+                      double tolerance) {
+    ASSERT_EQ(found.size(), truth.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        expect_equal(found[i], truth[i], tolerance);
+    }
+}
+
+/// What a test asks of a world again and again, by the device and by the CPU.
+template <class Query>
+struct Tables {
+    explicit Tables(const Query& query, double reach = 0.0)
+        : device(query, within(reach, on_device)), cpu(query, within(reach, on_cpu)) {}
+
+    PairTable<Query> device;
+    PairTable<Query> cpu;
+};
 
 /// How long a random history is, how many instances it starts with, and how far these scatter.
 struct History {
@@ -76,6 +146,53 @@ protected:
     }
 
     World& world() { return *world_; }
+
+    /// Updates both tables, and compares all that they say.
+    template <class Query>
+    void compare(Tables<Query>& tables) {
+        const Status status = world().update(tables.device);
+        ASSERT_TRUE(status.ok()) << status.text();
+        ASSERT_TRUE(world().update(tables.cpu).ok());
+        ASSERT_EQ(tables.device.size(), tables.cpu.size());
+        EXPECT_GE(tables.device.candidates(), tables.device.size());
+        double tolerance = 0.0;
+        if constexpr (requires(Query query) { query.tolerance; }) {
+            tolerance = tables.cpu.query().tolerance;
+        }
+        const auto rows = tables.device.rows();
+        ASSERT_EQ(rows.size(), tables.device.size()) << tables.device.read_status().text();
+        for (std::uint32_t i = 0; i < rows.size(); ++i) {
+            SCOPED_TRACE("row " + std::to_string(i));
+            const PairRow<Query>& found = rows[i];
+            const PairRow<Query>& truth = tables.cpu.rows()[i];
+            ASSERT_EQ(found.a, truth.a);
+            ASSERT_EQ(found.b, truth.b);
+            EXPECT_EQ(found.index, i);
+            EXPECT_EQ(found.status, truth.status);
+            EXPECT_EQ(found.intersects, truth.intersects);
+            EXPECT_EQ(found.error_bound, truth.error_bound);
+            EXPECT_EQ(found.record_count, truth.record_count);
+            if (truth.status != StatusCode::ok) {
+                continue;
+            }
+            using Values = typename Query::Result::Values;
+            expect_equal(static_cast<const Values&>(found), static_cast<const Values&>(truth),
+                         tolerance);
+            if constexpr (requires { tables.cpu.query().records; }) {
+                expect_all_equal(tables.device.records(found), tables.cpu.records(truth),
+                                 tolerance);
+            }
+            if constexpr (std::is_same_v<Query, ContactQuery>) {
+                expect_all_equal(tables.device.manifold(found), tables.cpu.manifold(truth),
+                                 tolerance);
+            }
+        }
+    }
+    template <class Query>
+    void compare(const Query& query, double reach = 0.0) {
+        Tables<Query> tables(query, reach);
+        compare(tables);
+    }
 
     /// Any sequence of changes: adds, moves, filters and removes instances of some_shapes(), which
     /// deform, and calls `compare` after each step.

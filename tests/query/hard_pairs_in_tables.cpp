@@ -2,10 +2,12 @@
 #include <tests/query/agreement.hpp>
 #include <tests/query/check.hpp>
 #include <tests/query/hard_pairs.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,7 +34,7 @@ public:
     /// The rows by the number of their instance `a`; all are rows of a pair.
     template <class Query>
     [[nodiscard]] std::vector<std::optional<PairRow<Query>>> sorted(
-        const std::vector<PairRow<Query>>& rows) const {
+        std::span<const PairRow<Query>> rows) const {
         std::vector<std::optional<PairRow<Query>>> result(instances_.size());
         for (const PairRow<Query>& row : rows) {
             const std::size_t a = number_of(row.a);
@@ -61,74 +63,52 @@ public:
     using Row = PairRow<Query>;
     using Result = typename Query::Result;
 
-    /// The tables are empty so far.
-    Rows(WorldOfPairs& world, DevicePairTable<Query> device, const PairSelection& selection)
-        : device_(std::move(device)), cpu_(device_.query(), selection) {
+    Rows(WorldOfPairs& world, const Query& query, double reach = 0.0)
+        : device_(query, within(reach, on_device)), cpu_(query, within(reach, on_cpu)) {
         world.update(device_);
         world.update(cpu_);
-        std::vector<Row> rows;
-        for (std::uint32_t i = 0; i < device_.size(); ++i) {
-            const auto row = device_.row(i);
-            EXPECT_TRUE(row.has_value()) << row.error().text();
-            rows.push_back(*row);
-            rows.back().first_record = i;
-        }
-        found_ = world.sorted(rows);
-        expected_ = world.sorted(std::vector<Row>(cpu_.rows().begin(), cpu_.rows().end()));
+        found_ = world.sorted(device_.rows());
+        EXPECT_EQ(device_.rows().size(), device_.size()) << device_.read_status().text();
+        expected_ = world.sorted(cpu_.rows());
     }
 
     [[nodiscard]] const std::optional<Row>& found(std::size_t a) const { return found_[a]; }
     [[nodiscard]] const std::optional<Row>& expected(std::size_t a) const { return expected_[a]; }
 
-    /// As the answer to a query alone; without a row, that of shapes that do not intersect.
-    [[nodiscard]] Result found_result(std::size_t a) {
-        Result result = as_result(found_[a]);
-        if constexpr (requires { result.records; }) {
-            if (found_[a] && device_.query().records) {
-                EXPECT_TRUE(device_.records(found_[a]->first_record, result.records).ok());
-            }
-        }
-        if constexpr (requires { result.manifold; }) {
-            if (found_[a]) {
-                EXPECT_TRUE(device_.manifold(found_[a]->first_record, result.manifold).ok());
-            }
-        }
-        return result;
-    }
-    [[nodiscard]] Result expected_result(std::size_t a) const {
-        Result result = as_result(expected_[a]);
-        if constexpr (requires { result.records; }) {
-            if (expected_[a]) {
-                const auto records = cpu_.records(*expected_[a]);
-                result.records.assign(records.begin(), records.end());
-            }
-        }
-        return result;
-    }
+    // As the answer to a query alone; without a row, that of shapes that do not intersect.
+    [[nodiscard]] Result found_result(std::size_t a) { return as_result(device_, found_[a]); }
+    [[nodiscard]] Result expected_result(std::size_t a) { return as_result(cpu_, expected_[a]); }
 
 private:
-    [[nodiscard]] Result as_result(const std::optional<Row>& row) const {
+    [[nodiscard]] static Result as_result(PairTable<Query>& table, const std::optional<Row>& row) {
         Result result;
-        if constexpr (requires { device_.query().tolerance; }) {
-            result.tolerance = result.error_bound = device_.query().tolerance;
+        if constexpr (requires { table.query().tolerance; }) {
+            result.tolerance = result.error_bound = table.query().tolerance;
         }
         if (row) {
             static_cast<typename Result::Values&>(result) = *row;
             result.intersects = row->intersects;
             result.error_bound = row->error_bound;
+            if constexpr (requires { result.records; }) {
+                const auto records = table.records(*row);
+                result.records.assign(records.begin(), records.end());
+            }
+            if constexpr (requires { result.manifold; }) {
+                const auto manifold = table.manifold(*row);
+                result.manifold.assign(manifold.begin(), manifold.end());
+            }
         }
         return result;
     }
 
-    DevicePairTable<Query> device_;
+    PairTable<Query> device_;
     PairTable<Query> cpu_;
     std::vector<std::optional<Row>> found_;
     std::vector<std::optional<Row>> expected_;
 };
 
 void check_tests(WorldOfPairs& world, const HardPairs& asked) {
-    Rows<IntersectionTestQuery> rows(world, DevicePairTable(IntersectionTestQuery{}),
-                                     {.hits_only = true});
+    Rows<IntersectionTestQuery> rows(world, IntersectionTestQuery{});
     asked.for_each([&](std::size_t i, const PlacedPair& pair) {
         const bool found = rows.found(2 * i).has_value();
         EXPECT_EQ(found, rows.expected(2 * i).has_value());
@@ -167,9 +147,9 @@ void take_deepest_of_records(PenetrationResult& result) {
 void check_penetrations(WorldOfPairs& world, const HardPairs& asked, PenetrationPoints points) {
     PenetrationQuery query{.tolerance = asked.tolerance, .points = points};
     const AnyQuery any = query;
-    Rows<PenetrationQuery> rows(world, DevicePairTable(query), {});
+    Rows<PenetrationQuery> rows(world, query);
     query.records = false;
-    Rows<PenetrationQuery> summaries(world, DevicePairTable(query), {});
+    Rows<PenetrationQuery> summaries(world, query);
     asked.for_each([&](std::size_t i, const PlacedPair& pair) {
         PenetrationResult result = rows.found_result(2 * i);
         if (!rows.found(2 * i)) {
@@ -193,14 +173,13 @@ void check_penetrations(WorldOfPairs& world, const HardPairs& asked, Penetration
 void check_all_contacts(WorldOfPairs& world, const HardPairs& asked) {
     ContactQuery query{.tolerance = asked.tolerance, .contact_distance = asked.contact_distance};
     const AnyQuery any = query;
-    Rows<ContactQuery> rows(world, DevicePairTable(query), {.hits_only = true});
+    Rows<ContactQuery> rows(world, query);
     query.records = false;
-    Rows<ContactQuery> summaries(world, DevicePairTable(query), {.hits_only = true});
+    Rows<ContactQuery> summaries(world, query);
     asked.for_each([&](std::size_t i, const PlacedPair& pair) {
         check_contacts(pair, asked.contact_distance, rows.found_result(2 * i));
-        compare(rows, summaries, i, [&](auto found, const auto& expected) {
+        compare(rows, summaries, i, [&](const auto& found, const auto& expected) {
             EXPECT_EQ(found.manifold.size(), summaries.found_result(2 * i).manifold.size());
-            found.manifold.clear();  // that of the CPU is no part of its table
             Report report("contacts by the device and the CPU");
             check_agreement(report, {.pair = pair, .query = any, .mostly_equal = false}, found,
                             expected);
@@ -222,11 +201,10 @@ void compare_distances(const Rows<Query>& rows, std::size_t a) {
 }
 
 void check_distances(WorldOfPairs& world, const HardPairs& asked) {
-    const PairSelection near{.reach = asked.reach, .hits_only = true};
-    Rows<SeparationQuery> separations(
-        world, DevicePairTable(SeparationQuery{.tolerance = asked.tolerance}, asked.reach), near);
-    Rows<ClosestPointQuery> closest(
-        world, DevicePairTable(ClosestPointQuery{.tolerance = asked.tolerance}, asked.reach), near);
+    Rows<SeparationQuery> separations(world, SeparationQuery{.tolerance = asked.tolerance},
+                                      asked.reach);
+    Rows<ClosestPointQuery> closest(world, ClosestPointQuery{.tolerance = asked.tolerance},
+                                    asked.reach);
     asked.for_each([&](std::size_t i, const PlacedPair& pair) {
         compare_distances(separations, 2 * i);
         compare_distances(closest, 2 * i);

@@ -1,5 +1,6 @@
 #include <tests/query/check.hpp>
 #include <tests/query/query_test.hpp>
+#include <tests/support/pair_tables.hpp>
 
 namespace nearfield::test {
 namespace {
@@ -160,7 +161,7 @@ TEST_F(Lifetime, TheGraphDescribesItself) {
     for (const Instance& instance : {pair.instance_a(), pair.instance_b()}) {
         ASSERT_TRUE(world->add({.shape = instance.shape, .pose = instance.pose}).has_value());
     }
-    DevicePairTable<PenetrationQuery> table({.tolerance = pair.penetration().tolerance});
+    PairTable<PenetrationQuery> table({.tolerance = pair.penetration().tolerance}, on_device);
     ASSERT_TRUE(world->update(table).ok());
     begins("boxes of pairs: passes\n", GraphFormat::text);
 }

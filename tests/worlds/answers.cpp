@@ -1,5 +1,7 @@
 #include "answers.hpp"
 
+#include <tests/support/pair_tables.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -195,7 +197,7 @@ void Answers::ask_casts(World& world, ShapeHandle shape, const Questions& questi
 
 void Answers::ask_impacts(World& world, PairTable<TimeOfImpactQuery>& table,
                           std::span<const InstanceHandle> moving, std::span<const Pose> ends) {
-    if (!note(world.update(table, moving, ends), "update of times of impact")) {
+    if (!note(world.update(table, {.moving = moving, .ends = ends}), "update of times of impact")) {
         return;
     }
     for (const PairRow<TimeOfImpactQuery>& row : table.rows()) {
@@ -221,18 +223,20 @@ void Answers::ask_pairs(World& world, std::span<const InstanceHandle> instances)
             b.push_back(instances[j]);
         }
     }
-    std::vector<std::uint8_t> intersects(a.size());
-    if (note(world.test_pairs(a, b, intersects), "test_pairs")) {
-        for (const std::uint8_t each : intersects) {
-            add(static_cast<double>(each));
+    PairTable tests(IntersectionTestQuery{}, of_list);
+    if (note(world.update(tests, {.a = a, .b = b}), "intersection tests of a list")) {
+        for (const PairRow<IntersectionTestQuery>& row : tests.rows()) {
+            add(static_cast<double>(row.status));
+            add(row.intersects ? 1.0 : 0.0);
+            add(row.error_bound);
         }
     }
-    std::vector<PairRow<PenetrationQuery>> rows(a.size());
-    PenetrationQuery query;
-    query.tolerance = 0.05;
-    query.points = PenetrationPoints::vertices;
-    if (note(world.find_penetrations(query, a, b, rows), "find_penetrations")) {
-        for (const PairRow<PenetrationQuery>& row : rows) {
+    PairTable penetrations(
+        PenetrationQuery{
+            .tolerance = 0.05, .points = PenetrationPoints::vertices, .records = false},
+        of_list);
+    if (note(world.update(penetrations, {.a = a, .b = b}), "penetrations of a list")) {
+        for (const PairRow<PenetrationQuery>& row : penetrations.rows()) {
             add(static_cast<double>(row.status));
             add(row.intersects ? 1.0 : 0.0);
             add(static_cast<double>(row.count));

@@ -28,7 +28,7 @@ History::History(std::uint64_t seed, const Settings& settings)
     impact.tolerance = 1e-3;
     impact.max_steps = 50;
     impact.contact_distance = random_.whole(0, 1) == 0 ? 0.0 : 0.1;
-    impacts_.emplace(impact, PairSelection{.reach = 0.0, .hits_only = random_.whole(0, 1) == 0});
+    impacts_.emplace(impact, PairTableOptions{.reach = 0.0, .hits_only = random_.whole(0, 1) == 0});
     asked_ = on_grid_ ? rectangle({0.0, 0.0}, {1.0, 1.0})
                       : scaled_and_moved(star(random_, any_size(random_), 0.4), 0.5, {});
     asked_shape_ = *context_->add_shape(asked_);
@@ -330,7 +330,7 @@ std::string History::compare() {
     const Motions kept_motions = motions_of(present, present_handles);
     const Motions fresh_motions = motions_of(present, handles);
     kept.ask_impacts(*world_, *impacts_, kept_motions.moving, kept_motions.ends);
-    PairTable impacts(impacts_->query(), impacts_->selection());
+    PairTable impacts(impacts_->query(), impacts_->options());
     fresh.ask_impacts(world, impacts, fresh_motions.moving, fresh_motions.ends);
     require(kept.status(), "a query of the world");
     require(fresh.status(), "a query of the new world");

@@ -37,7 +37,7 @@ struct Step {
 
 Status update(Scene& scene, Table& table, const Ends& ends) {
     const Step step(scene, ends);
-    return scene.world().update(table, step.moving, step.poses);
+    return scene.world().update(table, {.moving = step.moving, .ends = step.poses});
 }
 
 Ends any_ends(Random& random, const Scene& scene, const std::vector<Pose>& poses,
@@ -100,7 +100,7 @@ bool is_pair(const Placement& a, const Placement& b) {
 }
 
 /// All rows against the query asked of every pair: those missing are separated.
-void check_all_pairs(Scene& scene, const Table& table, const Ends& ends) {
+void check_all_pairs(Scene& scene, Table& table, const Ends& ends) {
     std::size_t next = 0;
     const auto rows = table.rows();
     for (std::size_t a = 0; a < scene.size(); ++a) {
@@ -207,8 +207,8 @@ TEST(WorldImpactTables, KeepTheRowsOfMotionsThatStay) {
             ASSERT_TRUE(update(scene, table, ends).ok());
             Table anew(query);
             ASSERT_TRUE(update(scene, anew, ends).ok());
-            ASSERT_EQ(anew.answered(), anew.candidates());
-            kept += step == 0 ? 0 : table.candidates() - table.answered();
+            ASSERT_EQ(anew.left_to_cpu(), anew.candidates());
+            kept += step == 0 ? 0 : table.candidates() - table.left_to_cpu();
             ASSERT_EQ(table.rows().size(), anew.rows().size());
             for (std::size_t i = 0; i < table.rows().size(); ++i) {
                 SCOPED_TRACE(testing::Message() << seed << ", step " << step << ", row " << i);
@@ -238,21 +238,21 @@ TEST(WorldImpactTables, AnswerOnlyPairsOfWhichAMotionChanged) {
     Ends ends(3);
     ends[0] = Pose{{8.0, 0.0}};
     ASSERT_TRUE(update(scene, table, ends).ok());
-    EXPECT_EQ(table.answered(), 3U);
+    EXPECT_EQ(table.left_to_cpu(), 3U);
     EXPECT_EQ(table.rows()[0].state, ImpactState::hit);
     EXPECT_NEAR(table.rows()[0].time, 0.5, 1e-9);
     ASSERT_TRUE(update(scene, table, ends).ok());
-    EXPECT_EQ(table.answered(), 0U);
+    EXPECT_EQ(table.left_to_cpu(), 0U);
     ends[1] = Pose{{-3.0, 0.0}};  // towards each other
     ASSERT_TRUE(update(scene, table, ends).ok());
-    EXPECT_EQ(table.answered(), 2U);
+    EXPECT_EQ(table.left_to_cpu(), 2U);
     EXPECT_NEAR(table.rows()[0].time, 0.25, 1e-9);
     ends[2] = Pose{{0.0, 5.0}};  // where it is already
     ASSERT_TRUE(update(scene, table, ends).ok());
-    EXPECT_EQ(table.answered(), 0U);
+    EXPECT_EQ(table.left_to_cpu(), 0U);
     ends = Ends(3);
     ASSERT_TRUE(update(scene, table, ends).ok());
-    EXPECT_EQ(table.answered(), 3U);
+    EXPECT_EQ(table.left_to_cpu(), 3U);
     EXPECT_EQ(table.rows()[0].state, ImpactState::separated);
 }
 
@@ -303,7 +303,7 @@ TEST(WorldImpactTables, TakeTheLaterEndOfAnInstanceNamedTwice) {
     Table table(query, {.reach = 0.0, .hits_only = true});
     const InstanceHandle twice[] = {scene.handle(0), scene.handle(0)};
     const Pose ends[] = {{{0.0, 8.0}}, {{8.0, 0.0}}};
-    ASSERT_TRUE(scene.world().update(table, twice, ends).ok());
+    ASSERT_TRUE(scene.world().update(table, {.moving = twice, .ends = ends}).ok());
     ASSERT_EQ(table.rows().size(), 1U);
     EXPECT_NEAR(table.rows()[0].time, 0.5, 1e-9);
     EXPECT_EQ(scene.world().instance(scene.handle(0))->pose, Pose()) << "an update moves nothing";
@@ -322,25 +322,28 @@ TEST(WorldImpactTables, RefuseMotionsThatCannotBe) {
         EXPECT_NE(status.message().find(words), std::string::npos) << status.message();
         EXPECT_TRUE(table.rows().empty());
         EXPECT_EQ(table.candidates(), 0U);
-        ASSERT_TRUE(scene.world().update(table, moving, end).ok());
+        ASSERT_TRUE(scene.world().update(table, {.moving = moving, .ends = end}).ok());
         EXPECT_EQ(table.rows().size(), 1U);
     };
-    expect(scene.world().update(table, moving, {}), StatusCode::invalid_query, "update");
+    expect(scene.world().update(table, {.moving = moving}), StatusCode::invalid_query, "update");
     const Pose nowhere[] = {{{std::numeric_limits<double>::quiet_NaN(), 0.0}}};
-    expect(scene.world().update(table, moving, nowhere), StatusCode::invalid_query, "number 0");
+    expect(scene.world().update(table, {.moving = moving, .ends = nowhere}),
+           StatusCode::invalid_query, "number 0");
     const InstanceHandle nobody[] = {InstanceHandle()};
-    expect(scene.world().update(table, nobody, end), StatusCode::unknown_instance, "update");
+    expect(scene.world().update(table, {.moving = nobody, .ends = end}),
+           StatusCode::unknown_instance, "update");
     Scene other({{"elsewhere", rectangle({0, 0}, {1, 1}), {}}});
     const InstanceHandle stranger[] = {other.handle(0)};
-    expect(scene.world().update(table, stranger, end), StatusCode::unknown_instance,
-           "another world");
+    expect(scene.world().update(table, {.moving = stranger, .ends = end}),
+           StatusCode::unknown_instance, "another world");
     Table wrong{TimeOfImpactQuery{}};
-    EXPECT_EQ(scene.world().update(wrong, moving, end).code(), StatusCode::invalid_query);
+    EXPECT_EQ(scene.world().update(wrong, {.moving = moving, .ends = end}).code(),
+              StatusCode::invalid_query);
     // What double precision cannot resolve is the fault of single pairs.
     TimeOfImpactQuery finest;
     finest.tolerance = 1e-300;
     Table too_fine(finest, {.reach = 0.0, .hits_only = true});
-    ASSERT_TRUE(scene.world().update(too_fine, moving, end).ok());
+    ASSERT_TRUE(scene.world().update(too_fine, {.moving = moving, .ends = end}).ok());
     ASSERT_EQ(too_fine.rows().size(), 1U);
     EXPECT_EQ(too_fine.rows()[0].status, StatusCode::invalid_query);
 }

@@ -4,6 +4,7 @@
 #include "scene.hpp"
 
 #include <gtest/gtest.h>
+#include <tests/support/pair_tables.hpp>
 
 #include <cstdint>
 #include <string>
@@ -36,14 +37,21 @@ TEST_P(WorldListedPairs, AreThoseOfABatch) {
             b.push_back(scene.handle(j));
             batch.add(IntersectionTestQuery{scene.instance(i), scene.instance(j)});
         }
-        std::vector<std::uint8_t> intersects(a.size(), 7);
-        ASSERT_TRUE(scene.world().test_pairs(a, b, intersects).ok());
+        PairTable table(IntersectionTestQuery{}, of_list);
+        ASSERT_TRUE(scene.world().update(table, {.a = a, .b = b}).ok());
+        ASSERT_EQ(table.rows().size(), a.size());
+        EXPECT_EQ(table.candidates(), a.size());
         Results results;
         ASSERT_TRUE(scene.context().run(batch, results).ok());
         for (std::size_t i = 0; i < a.size(); ++i) {
             const auto& test = std::get<IntersectionTestResult>(results.results[i]);
             EXPECT_TRUE(test.status.ok()) << test.status.text();
-            EXPECT_EQ(intersects[i], test.intersects ? 1 : 0) << "pair " << i;
+            const PairRow<IntersectionTestQuery>& row = table.rows()[i];
+            EXPECT_EQ(row.a, a[i]);
+            EXPECT_EQ(row.b, b[i]);
+            EXPECT_EQ(row.index, i);
+            EXPECT_EQ(row.intersects, test.intersects) << "pair " << i;
+            EXPECT_EQ(row.error_bound, test.error_bound) << "pair " << i;
         }
     }
 }
@@ -81,10 +89,11 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
         query.b = listed.instances[second[i]];
         batch.add(query);
     }
-    std::vector<PairRow<PenetrationQuery>> rows(a.size());
-    rows[0].count = 17;
-    const Status status = scene.world().find_penetrations(asked, a, b, rows);
+    PairTable table(asked, of_list);
+    const Status status = scene.world().update(table, {.a = a, .b = b});
     ASSERT_TRUE(status.ok()) << status.text();
+    const auto rows = table.rows();
+    ASSERT_EQ(rows.size(), a.size());
     Results results;
     ASSERT_TRUE(scene.context().run(batch, results).ok());
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -93,7 +102,7 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
         const PairRow<PenetrationQuery>& row = rows[i];
         EXPECT_EQ(row.a, a[i]);
         EXPECT_EQ(row.b, b[i]);
-        EXPECT_EQ(row.record_count, 0U);
+        EXPECT_EQ(row.record_count, result.records.size());
         EXPECT_EQ(row.status, result.status.code()) << result.status.text();
         if (row.status != StatusCode::ok) {
             continue;
@@ -111,7 +120,28 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
         EXPECT_EQ(row.deepest.feature.kind, result.deepest.feature.kind);
         EXPECT_EQ(row.deepest.feature.index, result.deepest.feature.index);
         EXPECT_EQ(row.deepest.unique, result.deepest.unique);
+        const auto records = table.records(row);
+        ASSERT_EQ(records.size(), result.records.size());
+        for (std::size_t k = 0; k < records.size(); ++k) {
+            EXPECT_EQ(records[k].point, result.records[k].point);
+            EXPECT_EQ(records[k].depth, result.records[k].depth);
+        }
     }
+    PairTable hits(asked, {.hits_only = true, .listed = true});
+    ASSERT_TRUE(scene.world().update(hits, {.a = a, .b = b}).ok());
+    std::size_t next = 0;
+    for (const PairRow<PenetrationQuery>& row : rows) {
+        if (row.count > 0 || row.status != StatusCode::ok) {
+            ASSERT_LT(next, hits.rows().size());
+            const PairRow<PenetrationQuery>& hit = hits.rows()[next];
+            EXPECT_EQ(hit.a, row.a);
+            EXPECT_EQ(hit.b, row.b);
+            EXPECT_EQ(hit.index, next);
+            EXPECT_EQ(hits.records(hit).size(), table.records(row).size());
+            ++next;
+        }
+    }
+    EXPECT_EQ(next, hits.rows().size());
 }
 
 TEST_P(WorldListedPairs, PenetrateAsInABatch) {
@@ -137,13 +167,16 @@ TEST_P(WorldListedPairs, PenetrateAsInABatch) {
             }
         }
         PenetrationQuery query;
-        query.tolerance = 0.05;
-        query.points = PenetrationPoints::vertices;
-        expect_rows_of_batch(scene, Listed(scene), query, a, b);
-        query.points = PenetrationPoints::boundary;
-        // Of the largest shapes, as few samples as there is memory for.
-        query.tolerance = kind == SceneKind::extreme ? 1e6 : 0.05;
-        expect_rows_of_batch(scene, Listed(scene), query, a, b);
+        for (const bool records : {false, true}) {
+            query.records = records;
+            query.tolerance = 0.05;
+            query.points = PenetrationPoints::vertices;
+            expect_rows_of_batch(scene, Listed(scene), query, a, b);
+            query.points = PenetrationPoints::boundary;
+            // Of the largest shapes, as few samples as there is memory for.
+            query.tolerance = kind == SceneKind::extreme ? 1e6 : 0.05;
+            expect_rows_of_batch(scene, Listed(scene), query, a, b);
+        }
     }
 }
 
@@ -160,15 +193,20 @@ protected:
             a.push_back(scene_.handle(first[i]));
             b.push_back(scene_.handle(second[i]));
         }
-        std::vector<std::uint8_t> intersects(a.size(), 7);
-        const Status status = scene_.world().test_pairs(a, b, intersects);
+        const Status status = scene_.world().update(tests_, {.a = a, .b = b});
         EXPECT_TRUE(status.ok()) << status.text();
-        return {intersects.begin(), intersects.end()};
+        EXPECT_EQ(tests_.rows().size(), a.size());
+        std::vector<int> intersects;
+        for (const PairRow<IntersectionTestQuery>& row : tests_.rows()) {
+            intersects.push_back(row.intersects ? 1 : 0);
+        }
+        return intersects;
     }
 
     Scene scene_{{{"left", rectangle({0, 0}, {1, 1}), {}, 1, 1},
                   {"middle", rectangle({0, 0}, {1, 1}), {{1.0, 0.0}}, 2, 2},
                   {"right", rectangle({0, 0}, {1, 1}), {{2.0, 0.0}}, 4, 4}}};
+    PairTable<IntersectionTestQuery> tests_{IntersectionTestQuery{}, of_list};
 };
 
 TEST_F(WorldListedSquares, IgnoreFiltersAndFollowMoves) {
@@ -183,6 +221,7 @@ TEST_F(WorldListedSquares, IgnoreFiltersAndFollowMoves) {
 TEST_F(WorldListedSquares, WithoutTheirShapeMeetNothing) {
     ASSERT_TRUE(scene_.context().remove_shape(scene_.shape(1)).ok());
     EXPECT_EQ(test({0, 1, 1}, {1, 2, 1}), (std::vector<int>{0, 0, 0}));
+    EXPECT_EQ(tests_.rows()[1].status, StatusCode::unknown_shape);
 }
 
 TEST_F(WorldListedSquares, StateWhatIsWrongWithAPair) {
@@ -205,13 +244,13 @@ TEST_F(WorldListedSquares, StateWhatIsWrongWithAPair) {
     ASSERT_TRUE(scene_.context().remove_shape(scene_.shape(1)).ok());
     const InstanceHandle a[] = {scene_.handle(0), scene_.handle(1), scene_.handle(2)};
     const InstanceHandle b[] = {scene_.handle(1), scene_.handle(2), scene_.handle(2)};
-    std::vector<PairRow<PenetrationQuery>> rows(3);
-    PenetrationQuery query;
-    query.tolerance = 0.1;
+    PenetrationQuery query{.tolerance = 0.1, .records = false};
     for (const PenetrationPoints points :
          {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
         query.points = points;
-        ASSERT_TRUE(scene_.world().find_penetrations(query, a, b, rows).ok());
+        PairTable table(query, of_list);
+        ASSERT_TRUE(scene_.world().update(table, {.a = a, .b = b}).ok());
+        const auto rows = table.rows();
         EXPECT_EQ(rows[0].status, StatusCode::unknown_shape);
         EXPECT_EQ(rows[1].status, StatusCode::unknown_shape);
         EXPECT_EQ(rows[2].status, StatusCode::ok);
@@ -219,42 +258,65 @@ TEST_F(WorldListedSquares, StateWhatIsWrongWithAPair) {
     }
 }
 
+/// The list may be another one at each update, and empty.
+TEST_F(WorldListedSquares, AreThoseOfTheLastList) {
+    EXPECT_EQ(test({0, 1, 0}, {1, 2, 2}), (std::vector<int>{1, 1, 0}));
+    EXPECT_EQ(test({2, 2}, {0, 1}), (std::vector<int>{0, 1}));
+    EXPECT_EQ(test({}, {}), std::vector<int>{});
+}
+
+/// Of any query but times of impact.
+TEST_F(WorldListedSquares, AreAskedWhatTableIsAsked) {
+    const InstanceHandle a[] = {scene_.handle(0), scene_.handle(2), scene_.handle(2)};
+    const InstanceHandle b[] = {scene_.handle(2), scene_.handle(0), scene_.handle(1)};
+    PairTable separations(SeparationQuery{.tolerance = 0.01}, of_list);
+    ASSERT_TRUE(scene_.world().update(separations, {.a = a, .b = b}).ok());
+    ASSERT_EQ(separations.size(), 3U);
+    EXPECT_EQ(separations.rows()[0].distance, 1.0);
+    EXPECT_EQ(separations.rows()[1].a, scene_.handle(2));
+    EXPECT_EQ(separations.rows()[2].distance, 0.0);
+    PairTable contacts(ContactQuery{.tolerance = 0.1, .contact_distance = 0.2}, of_list);
+    ASSERT_TRUE(scene_.world().update(contacts, {.a = a, .b = b}).ok());
+    EXPECT_EQ(contacts.rows()[0].count, 0U);
+    EXPECT_GT(contacts.records(contacts.rows()[2]).size(), 0U);
+    EXPECT_GT(contacts.manifold(contacts.rows()[2]).size(), 0U);
+    PairTable impacts(TimeOfImpactQuery{.tolerance = 0.1}, of_list);
+    EXPECT_EQ(scene_.world().update(impacts, {.a = a, .b = b}).message(),
+              "update: times of impact are not asked of a list of pairs");
+}
+
 TEST_F(WorldListedSquares, AskTheCpu) {
     const InstanceHandle both[] = {scene_.handle(0), scene_.handle(1)};
-    std::vector<PairRow<PenetrationQuery>> rows(2);
-    const auto refused = [&](const PenetrationQuery& query) {
-        const Status status = scene_.world().find_penetrations(query, both, both, rows);
+    const auto refused = [&](const PenetrationQuery& query, PairTableOptions options) {
+        PairTable table(query, options);
+        const Status status = scene_.world().update(table, {.a = both, .b = both});
         EXPECT_EQ(status.code(), StatusCode::invalid_query);
+        EXPECT_TRUE(table.rows().empty());
         return status.message();
     };
     PenetrationQuery query;
-    EXPECT_EQ(refused(query).find("find_penetrations: the tolerance is 0"), 0U) << refused(query);
+    EXPECT_EQ(refused(query, of_list).find("update: the tolerance is 0"), 0U);
     query.tolerance = 0.1;
+    EXPECT_EQ(refused(query, {.listed = true, .technique = Technique::compute}),
+              "update: Technique::compute finds its pairs; a list of them is for Technique::cpu");
+    EXPECT_EQ(refused(query, {.technique = Technique::cpu}),
+              "update: pairs are given to a table that finds its own");
     query.technique = Technique::compute;
-    EXPECT_EQ(refused(query),
-              "find_penetrations: pairs of a world are answered by Technique::cpu; the query asks "
-              "for another technique, or for resident results");
+    EXPECT_EQ(refused(query, of_list),
+              "update: the table is answered by Technique::cpu, and its query asks for "
+              "Technique::compute");
     query.technique = Technique::cpu;
     query.resident = true;
-    EXPECT_EQ(refused(query).find("find_penetrations: pairs of a world"), 0U) << refused(query);
-    query.resident = false;
-    const Status status =
-        scene_.world().find_penetrations(query, both, both, std::span(rows).first(1));
-    EXPECT_EQ(status.message(),
-              "find_penetrations: 2 and 2 instances form no pairs with space for 1 answers");
+    EXPECT_EQ(refused(query, of_list).find("update: commands of the host, poses that they write"),
+              0U);
 }
 
 TEST_F(WorldListedSquares, NeedAsManyOfEach) {
     const InstanceHandle both[] = {scene_.handle(0), scene_.handle(1)};
     const InstanceHandle one[] = {scene_.handle(0)};
-    std::vector<std::uint8_t> intersects(2);
-    const Status of_second = scene_.world().test_pairs(both, one, intersects);
-    EXPECT_EQ(of_second.code(), StatusCode::invalid_query);
-    EXPECT_EQ(of_second.message(),
-              "test_pairs: 2 and 1 instances form no pairs with space for 2 answers");
-    const Status of_first = scene_.world().test_pairs(one, both, intersects);
-    EXPECT_EQ(of_first.message(),
-              "test_pairs: 1 and 2 instances form no pairs with space for 2 answers");
+    const Status status = scene_.world().update(tests_, {.a = both, .b = one});
+    EXPECT_EQ(status.code(), StatusCode::invalid_query);
+    EXPECT_EQ(status.message(), "update: 2 and 1 instances form no pairs");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/allocations.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <functional>
 
@@ -127,17 +128,18 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
         [](Changed& c) {
             const InstanceHandle a[] = {c.scene.handle(0), c.scene.handle(2)};
             const InstanceHandle b[] = {c.scene.handle(1), c.scene.handle(3)};
-            std::vector<std::uint8_t> out(2);
-            return c.scene.world().test_pairs(a, b, out);
+            PairTable out(IntersectionTestQuery{}, of_list);
+            return c.scene.world().update(out, {.a = a, .b = b});
         },
         [](Changed& c) {
             const InstanceHandle a[] = {c.scene.handle(0), c.scene.handle(2)};
             const InstanceHandle b[] = {c.scene.handle(1), c.scene.handle(3)};
-            std::vector<PairRow<PenetrationQuery>> out(2);
             PenetrationQuery query;
             query.tolerance = 0.02;
             query.points = PenetrationPoints::vertices;
-            return c.scene.world().find_penetrations(query, a, b, out);
+            query.records = false;
+            PairTable out(query, of_list);
+            return c.scene.world().update(out, {.a = a, .b = b});
         },
         [](Changed& c) {
             std::vector<Clearance> out(c.questions.poses.size());
@@ -157,7 +159,7 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
             PairTable out(query);
             const InstanceHandle moving[] = {c.scene.handle(0)};
             const Pose ends[] = {{{3.0, 3.0}, 1.0}};
-            return c.scene.world().update(out, moving, ends);
+            return c.scene.world().update(out, {.moving = moving, .ends = ends});
         },
         [](Changed& c) {
             std::vector<NearestHit> out(2 * c.questions.points.size());
@@ -277,8 +279,6 @@ public:
             poses_.push_back(scene_.placements()[i].pose);
         }
         intersects_.resize(questions_.poses.size());
-        of_pairs_.resize(handles_.size() - 1);
-        rows_.resize(handles_.size() - 1);
         clearances_.resize(questions_.poses.size());
         nearest_.resize(3 * questions_.points.size());
         hits_.resize(questions_.segments.size());
@@ -305,7 +305,7 @@ public:
         for (Pose& end : ends_) {
             end.translation.x += odd ? -0.3 : 0.3;
         }
-        ASSERT_TRUE(world.update(*impacts_, handles_, ends_).ok());
+        ASSERT_TRUE(world.update(*impacts_, {.moving = handles_, .ends = ends_}).ok());
         ASSERT_TRUE(world.remove(*guest).ok());
     }
 
@@ -321,16 +321,11 @@ private:
         three.count = 3;
         ASSERT_TRUE(world.test_poses({item_}, questions_.poses, intersects_).ok());
         const std::span<const InstanceHandle> all(handles_);
-        ASSERT_TRUE(world.test_pairs(all.subspan(1), all.first(of_pairs_.size()), of_pairs_).ok());
-        PenetrationQuery penetration;
-        penetration.tolerance = 0.02;
-        for (const PenetrationPoints points :
-             {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
-            penetration.points = points;
-            ASSERT_TRUE(
-                world.find_penetrations(penetration, all.subspan(1), all.first(rows_.size()), rows_)
-                    .ok());
-        }
+        const PairTableInput pairs{.a = all.subspan(1), .b = all.first(all.size() - 1)};
+        ASSERT_TRUE(world.update(tests_, pairs).ok());
+        ASSERT_TRUE(world.update(vertices_, pairs).ok());
+        ASSERT_TRUE(world.update(samples_, pairs).ok());
+        ASSERT_TRUE(world.update(contacts_, pairs).ok());
         ASSERT_TRUE(world.find_clearances({item_}, questions_.poses, clearances_).ok());
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
         ASSERT_TRUE(world.find_nearest({item_, {}, 3}, questions_.poses, nearest_of_item_).ok());
@@ -355,8 +350,11 @@ private:
     std::vector<Pose> ends_;
     std::optional<PairTable<TimeOfImpactQuery>> impacts_;
     std::vector<std::uint8_t> intersects_;
-    std::vector<std::uint8_t> of_pairs_;
-    std::vector<PairRow<PenetrationQuery>> rows_;
+    PairTable<IntersectionTestQuery> tests_{IntersectionTestQuery{}, of_list};
+    PairTable<PenetrationQuery> vertices_{
+        {.tolerance = 0.02, .points = PenetrationPoints::vertices, .records = false}, of_list};
+    PairTable<PenetrationQuery> samples_{{.tolerance = 0.02}, of_list};
+    PairTable<ContactQuery> contacts_{{.tolerance = 0.02, .contact_distance = 0.05}, of_list};
     std::vector<Clearance> clearances_;
     std::vector<NearestHit> nearest_;
     std::vector<Clearance> nearest_of_item_;

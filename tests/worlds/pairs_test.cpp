@@ -3,6 +3,7 @@
 #include <nearfield/nearfield.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/pair_tables.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -38,6 +39,13 @@ void add(Numbers& to, const ContactRecord& record) {
 void add(Numbers& to, const IntersectionSample& sample) {
     add(to, sample.point);
     to.push_back(sample.edge);
+}
+void add(Numbers& to, const ContactCluster& cluster) {
+    add(to, cluster.first);
+    add(to, cluster.last);
+    add(to, cluster.normal);
+    add(to, cluster.extreme);
+    to.push_back(cluster.count);
 }
 void add(Numbers& /*to*/, const NoRecord& /*none*/) {}
 void add(Numbers& to, const PenetrationValues& values) {
@@ -82,7 +90,7 @@ void add(Numbers& to, const SeparationVectorValues& values) {
 }
 
 template <class Query>
-Numbers numbers_of(const PairTable<Query>& table) {
+Numbers numbers_of(PairTable<Query>& table) {
     Numbers numbers;
     for (const PairRow<Query>& row : table.rows()) {
         numbers.insert(numbers.end(),
@@ -93,6 +101,11 @@ Numbers numbers_of(const PairTable<Query>& table) {
         add(numbers, static_cast<const typename Query::Result::Values&>(row));
         for (const auto& record : table.records(row)) {
             add(numbers, record);
+        }
+        if constexpr (std::is_same_v<Query, ContactQuery>) {
+            for (const ContactCluster& cluster : table.manifold(row)) {
+                add(numbers, cluster);
+            }
         }
     }
     return numbers;
@@ -166,7 +179,7 @@ private:
 
 /// Every row is the answer to the query of its pair, and no candidate that is hit is missing.
 template <class Query>
-void check_against_batch(ChangingScene& scene, const PairTable<Query>& table) {
+void check_against_batch(ChangingScene& scene, PairTable<Query>& table) {
     for (const PairRow<Query>& row : table.rows()) {
         Query query = table.query();
         query.technique = Technique::cpu;
@@ -190,6 +203,14 @@ void check_against_batch(ChangingScene& scene, const PairTable<Query>& table) {
         for (const auto& record : table.records(row)) {
             add(found, record);
         }
+        if constexpr (requires { answer->manifold; }) {
+            for (const ContactCluster& cluster : answer->manifold) {
+                add(expected, cluster);
+            }
+            for (const ContactCluster& cluster : table.manifold(row)) {
+                add(found, cluster);
+            }
+        }
         EXPECT_EQ(expected, found);
         EXPECT_EQ(answer->intersects, row.intersects);
         EXPECT_EQ(answer->error_bound, row.error_bound);
@@ -209,13 +230,13 @@ void follow(const Query& query, double reach) {
             ASSERT_TRUE(scene.world().update(hits).ok());
             PairTable anew(query, {reach, false});
             ASSERT_TRUE(scene.world().update(anew).ok());
-            ASSERT_EQ(anew.answered(), anew.candidates());
+            ASSERT_EQ(anew.left_to_cpu(), anew.candidates());
             ASSERT_EQ(numbers_of(all), numbers_of(anew)) << "seed " << seed << " frame " << frame;
             PairTable hits_anew(query, {reach, true});
             ASSERT_TRUE(scene.world().update(hits_anew).ok());
             ASSERT_EQ(numbers_of(hits), numbers_of(hits_anew));
             ASSERT_LE(hits.rows().size(), all.rows().size());
-            kept += frame == 0 ? 0 : all.candidates() - all.answered();
+            kept += frame == 0 ? 0 : all.candidates() - all.left_to_cpu();
             if (frame % 4 == 0) {
                 check_against_batch(scene, all);
             }
@@ -313,10 +334,62 @@ TEST(PairTables, StartAnewInAnotherWorld) {
         // Each world comes to have the address of the one before.
         Scene scene(make_scene(SceneKind::ordinary, seed));
         ASSERT_TRUE(scene.world().update(table).ok());
-        EXPECT_EQ(table.answered(), table.candidates());
+        EXPECT_EQ(table.left_to_cpu(), table.candidates());
         PairTable anew(IntersectionTestQuery{});
         ASSERT_TRUE(scene.world().update(anew).ok());
         EXPECT_EQ(numbers_of(table), numbers_of(anew));
+    }
+}
+
+/// As tables that the device fills: there are rows once they are collected, of the world as it was.
+TEST(PairTables, AreSubmittedAndCollected) {
+    Scene scene(make_scene(SceneKind::ordinary, 2));
+    const PenetrationQuery query{.tolerance = 0.05};
+    PairTable at_once(query);
+    ASSERT_TRUE(scene.world().update(at_once).ok());
+    ASSERT_GT(at_once.size(), 0U);
+    PairTable table(query);
+    EXPECT_EQ(table.collect().code(), StatusCode::not_ready);
+    EXPECT_FALSE(table.is_ready());
+    ASSERT_TRUE(scene.world().submit(table).ok());
+    EXPECT_TRUE(table.is_ready());
+    EXPECT_EQ(table.size(), 0U);
+    EXPECT_EQ(table.candidates(), 0U);
+    EXPECT_TRUE(table.rows().empty());
+    EXPECT_EQ(table.row(0).error().code(), StatusCode::invalid_query);
+    ASSERT_TRUE(scene.world().move(scene.handle(0), {{1e3, 1e3}}).ok());
+    for (const Status& status : {scene.world().submit(table), scene.world().update(table)}) {
+        EXPECT_EQ(status.code(), StatusCode::not_ready);
+        EXPECT_NE(status.message().find("has not been collected"), std::string::npos);
+    }
+    ASSERT_TRUE(table.collect().ok());
+    EXPECT_FALSE(table.is_ready());
+    EXPECT_EQ(numbers_of(table), numbers_of(at_once));
+    EXPECT_EQ(table.left_to_cpu(), table.candidates());
+    for (std::uint32_t i = 0; i < table.size(); ++i) {
+        EXPECT_EQ(table.row(i)->index, i);
+        EXPECT_EQ(table.row(i)->count, table.rows()[i].count);
+    }
+    EXPECT_FALSE(table.row(table.size()).has_value());
+    EXPECT_GE(table.timings().total, table.timings().decode);
+    EXPECT_EQ(scene.world().record(table, {}).code(), StatusCode::invalid_submission);
+    EXPECT_EQ(table.resident().error().code(), StatusCode::invalid_query);
+}
+
+/// Reach is no property of a hit, but of distances.
+TEST(PairTables, OfHitsDoNotDependOnTheReach) {
+    Scene scene({{"left", rectangle({0, 0}, {1, 1}), {}},
+                 {"right", rectangle({0, 0}, {1, 1}), {{0.5, 0.0}}},
+                 {"near", rectangle({0, 0}, {1, 1}), {{2.0, 0.0}}}});
+    for (const double reach : {0.0, 0.25, 0.5, 10.0}) {
+        PairTable tests(IntersectionTestQuery{}, {.reach = reach, .hits_only = true});
+        ASSERT_TRUE(scene.world().update(tests).ok());
+        EXPECT_EQ(tests.size(), 1U);
+        EXPECT_EQ(tests.candidates(), 1U);
+        PairTable separations(SeparationQuery{.tolerance = 0.01},
+                              {.reach = reach, .hits_only = true});
+        ASSERT_TRUE(scene.world().update(separations).ok());
+        EXPECT_EQ(separations.size(), reach < 0.5 ? 1U : reach < 1.0 ? 2U : 3U);
     }
 }
 
@@ -329,6 +402,20 @@ TEST(PairTables, RefuseWhatAWorldCannotAnswer) {
     query.technique = Technique::compute;
     PairTable on_device(query);
     EXPECT_EQ(scene.world().update(on_device).code(), StatusCode::invalid_query);
+    PairTable by_raster(query, {.technique = Technique::raster});
+    EXPECT_EQ(scene.world().update(by_raster).code(), StatusCode::invalid_query);
+    PairTable all_by_device(PenetrationQuery{.tolerance = 0.05}, {.technique = Technique::compute});
+    EXPECT_NE(scene.world().update(all_by_device).message().find("hits_only = false"),
+              std::string::npos);
+    PairTable contained(ContainmentQuery{}, {.hits_only = true, .technique = Technique::compute});
+    EXPECT_NE(scene.world().update(contained).message().find("does not answer this query"),
+              std::string::npos);
+    PairTable still(IntersectionTestQuery{});
+    const InstanceHandle moving[] = {scene.handle(0)};
+    const Pose end[] = {{}};
+    EXPECT_NE(
+        scene.world().update(still, {.moving = moving, .ends = end}).message().find("motions"),
+        std::string::npos);
     query.technique = Technique::automatic;
     query.resident = true;
     PairTable resident(query);

@@ -1,6 +1,7 @@
 #include "answers.hpp"
 
 #include <gtest/gtest.h>
+#include <tests/support/pair_tables.hpp>
 
 #include <cmath>
 #include <limits>
@@ -219,14 +220,12 @@ TEST_F(WorldRefusals, OfInstancesThatAreNotThere) {
         expect(world().remove(handle), code, "remove");
         expect(world().instance(handle).error(), code, "instance");
         const InstanceHandle good[] = {scene_.handle(0), scene_.handle(1)};
-        std::vector<std::uint8_t> intersects(2);
-        expect(world().test_pairs(both, good, intersects), code, "test_pairs");
-        expect(world().test_pairs(good, both, intersects), code, "test_pairs");
-        std::vector<PairRow<PenetrationQuery>> rows(2);
-        PenetrationQuery query;
-        query.tolerance = 0.1;
-        expect(world().find_penetrations(query, both, good, rows), code, "find_penetrations");
-        expect(world().find_penetrations(query, good, both, rows), code, "find_penetrations");
+        PairTable tests(IntersectionTestQuery{}, of_list);
+        expect(world().update(tests, {.a = both, .b = good}), code, "update");
+        expect(world().update(tests, {.a = good, .b = both}), code, "update");
+        PairTable penetrations(PenetrationQuery{.tolerance = 0.1}, of_list);
+        expect(world().update(penetrations, {.a = both, .b = good}), code, "update");
+        expect(world().submit(penetrations, {.a = good, .b = both}), code, "submit");
     }
 }
 
@@ -241,8 +240,8 @@ TEST_F(WorldRefusals, OfHandlesOfAnotherWorld) {
     expect(world().set_filter(foreign, 2, 2), code, "set_filter" + words);
     expect(world().remove(foreign), code, "remove" + words);
     expect(world().instance(foreign).error(), code, "instance" + words);
-    std::vector<std::uint8_t> pairs(1);
-    expect(world().test_pairs({&foreign, 1}, {&foreign, 1}, pairs), code, "test_pairs" + words);
+    PairTable tests(IntersectionTestQuery{}, of_list);
+    expect(world().update(tests, {.a = {&foreign, 1}, .b = {&foreign, 1}}), code, "update" + words);
     // The shapes of another context, in a world of this one.
     expect(world().add({other.add_shape(rectangle({0, 0}, {1, 1})), {}}).error(),
            StatusCode::unknown_shape, "is of another context");
@@ -278,7 +277,9 @@ TEST_F(WorldRefusals, NothingIsAskedOfNothing) {
     InstanceLists lists;
     EXPECT_TRUE(world().move(std::span<const InstanceHandle>(), {}).ok());
     EXPECT_TRUE(world().test_poses({item_}, {}, {}).ok());
-    EXPECT_TRUE(world().test_pairs({}, {}, {}).ok());
+    PairTable tests(IntersectionTestQuery{}, of_list);
+    EXPECT_TRUE(world().update(tests).ok());
+    EXPECT_TRUE(tests.rows().empty());
     EXPECT_TRUE(world().find_clearances({item_}, {}, {}).ok());
     EXPECT_TRUE(world().find_nearest(NearestQuery{}, {}, {}).ok());
     EXPECT_TRUE(world().find_nearest(ShapeNearestQuery{item_}, {}, {}).ok());

@@ -2,7 +2,7 @@
 
 #include <nearfield/device_poses.hpp>
 #include <nearfield/world.hpp>
-#include <nearfield/world_device.hpp>
+#include <nearfield/world_pairs.hpp>
 
 #include <tools/benchmark/crowds.hpp>
 #include <tools/benchmark/objects.hpp>
@@ -70,7 +70,8 @@ public:
         : context_(context),
           world_(take(World::create(context))),
           table_(
-              {.tolerance = crowd_tolerance, .records = false, .resident = rows == Rows::resident}),
+              {.tolerance = crowd_tolerance, .records = false, .resident = rows == Rows::resident},
+              {.hits_only = true, .technique = Technique::compute}),
           rows_(rows) {
         for (const SceneShape& shape : scene.shapes) {
             shapes_.push_back(take(add_shape(context, shape.rings, shape.deviation)));
@@ -94,7 +95,7 @@ public:
 
     void run_frame() override {
         if (rows_ == Rows::resident) {
-            require(world_.update(table_, device_poses_), "bench");
+            require(world_.update(table_, {.poses = &device_poses_}), "bench");
             return;
         }
         for (Pose& pose : poses_) {
@@ -105,9 +106,10 @@ public:
         require(world_.update(table_), "bench");
         if (rows_ == Rows::read) {
             found_ = 0;
-            for (std::uint32_t i = 0; i < table_.size(); ++i) {
-                found_ += take(table_.row(i)).count;
+            for (const PairRow<PenetrationQuery>& row : table_.rows()) {
+                found_ += row.count;
             }
+            require(table_.read_status(), "bench");
         }
     }
     [[nodiscard]] const Timings& timings() const override { return table_.timings(); }
@@ -135,7 +137,7 @@ private:
     Context& context_;
     HostBuffer buffer_;  // destroyed after the table
     World world_;
-    DevicePairTable<PenetrationQuery> table_;
+    PairTable<PenetrationQuery> table_;
     Rows rows_;
     DevicePoses device_poses_;
     std::vector<ShapeHandle> shapes_;

@@ -54,7 +54,8 @@ DevicePairRunner::Table DevicePairRunner::table_of(const QueryRequest& request) 
     return std::visit(
         []<class Query>(const Query& query) -> Table {
             if constexpr (has_table<Query>) {
-                return DevicePairTable<Query>(query);
+                return PairTable<Query>(query,
+                                        {.hits_only = true, .technique = Technique::compute});
             } else {
                 throw std::logic_error("the device has no table of such pairs");
             }
@@ -96,7 +97,7 @@ Status DevicePairRunner::answer(std::span<const Instance> instances, const Limit
     }
     return std::visit(
         [&](auto& table) {
-            Status status = world_.update(table, limits);
+            Status status = world_.update(table, {}, limits);
             add_timings(table.timings(), timings);
             return status.ok() ? read_rows(table, limits) : status;
         },
@@ -104,7 +105,7 @@ Status DevicePairRunner::answer(std::span<const Instance> instances, const Limit
 }
 
 template <class Query>
-Status DevicePairRunner::read_rows(DevicePairTable<Query>& table, const Limits& limits) {
+Status DevicePairRunner::read_rows(PairTable<Query>& table, const Limits& limits) {
     rows_.resize(std::max<std::size_t>(rows_.size(), table.size()));
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         if (limits.cancel != nullptr && *limits.cancel) {
@@ -124,9 +125,9 @@ Status DevicePairRunner::read_rows(DevicePairTable<Query>& table, const Limits& 
 }
 
 template <class Query>
-Status DevicePairRunner::read_row(DevicePairTable<Query>& table, std::uint32_t index, Row& read) {
+Status DevicePairRunner::read_row(PairTable<Query>& table, std::uint32_t index, Row& read) {
     using Result = typename Query::Result;
-    const auto row = table.row(index);
+    const Expected<PairRow<Query>> row = table.row(index);
     if (!row.has_value()) {
         return row.error();
     }
@@ -148,15 +149,14 @@ Status DevicePairRunner::read_row(DevicePairTable<Query>& table, std::uint32_t i
     }
     result.status = {};
     if constexpr (requires { result.manifold; }) {
-        if (Status status = table.manifold(index, result.manifold); !status.ok()) {
-            return status;
-        }
+        const auto manifold = table.manifold(*row);
+        result.manifold.assign(manifold.begin(), manifold.end());
     }
     if constexpr (requires { result.records; }) {
-        result.records.clear();
-        return request_.records ? table.records(index, result.records) : Status();
+        const auto records = table.records(*row);
+        result.records.assign(records.begin(), records.end());
     }
-    return {};
+    return table.read_status();
 }
 
 /// A row has the code alone.

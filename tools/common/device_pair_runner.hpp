@@ -2,7 +2,7 @@
 
 #include <nearfield/context.hpp>
 #include <nearfield/world.hpp>
-#include <nearfield/world_device.hpp>
+#include <nearfield/world_pairs.hpp>
 
 #include <tools/io/scene.hpp>
 
@@ -23,7 +23,7 @@ struct PairSelection {
     std::string names_of_bad;         ///< those that cannot be used
 };
 
-/// True of a query of all pairs whose hits a table of the device finds (DevicePairTable).
+/// True of a query of all pairs whose hits a table of the device finds (PairTable).
 [[nodiscard]] bool is_for_device_pairs(const SceneQuery& query);
 
 /// A query of all pairs of a scene, of which the device finds the hits. What is on the device stays
@@ -53,16 +53,15 @@ public:
     [[nodiscard]] std::size_t pair_count() const;
 
 private:
-    using Table =
-        std::variant<DevicePairTable<PenetrationQuery>, DevicePairTable<ContactQuery>,
-                     DevicePairTable<IntersectionTestQuery>, DevicePairTable<SeparationQuery>,
-                     DevicePairTable<ClosestPointQuery>>;
+    using Table = std::variant<PairTable<PenetrationQuery>, PairTable<ContactQuery>,
+                               PairTable<IntersectionTestQuery>, PairTable<SeparationQuery>,
+                               PairTable<ClosestPointQuery>>;
 
     [[nodiscard]] static Table table_of(const QueryRequest& request);
     template <class Query>
-    [[nodiscard]] Status read_rows(DevicePairTable<Query>& table, const Limits& limits);
+    [[nodiscard]] Status read_rows(PairTable<Query>& table, const Limits& limits);
     template <class Query>
-    [[nodiscard]] Status read_row(DevicePairTable<Query>& table, std::uint32_t index, Row& read);
+    [[nodiscard]] Status read_row(PairTable<Query>& table, std::uint32_t index, Row& read);
     template <class Query>
     [[nodiscard]] Status error_of(Query query, const PairRow<Query>& row);
 

@@ -110,7 +110,7 @@ public:
                 h.direction);
     }
     template <class Query>
-    void add(const PairTable<Query>& table) {
+    void add(PairTable<Query>& table) {
         for (const PairRow<Query>& row : table.rows()) {
             const typename Query::Result::Values& values = row;
             add_all(row.a, row.b, row.status, row.intersects, row.error_bound, values,

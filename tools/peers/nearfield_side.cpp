@@ -58,8 +58,27 @@ std::vector<const AnyResult*> NearfieldSide::results() const {
     return results;
 }
 
+namespace {
+
+/// That of all queries of a problem that the task of penetrations poses; otherwise any.
+PenetrationQuery penetration_of(const Problem& problem) {
+    if (problem.task != Task::vertex_penetration) {
+        return {};
+    }
+    Batch batch;
+    tools::add_query(batch, problem.scene.queries.front().request, {}, {});
+    return std::get<PenetrationQuery>(batch.queries().front());
+}
+
+constexpr PairTableOptions listed{.listed = true, .technique = Technique::cpu};
+
+}  // namespace
+
 KeptPairs::KeptPairs(const Problem& problem, Context& context)
-    : problem_(problem), world_(tools::take(World::create(context))) {
+    : problem_(problem),
+      world_(tools::take(World::create(context))),
+      tests_(IntersectionTestQuery{}, listed),
+      penetrations_(penetration_of(problem), listed) {
     const tools::Scene& scene = problem.scene;
     std::vector<ShapeHandle> shapes;
     for (const tools::SceneShape& shape : scene.shapes) {
@@ -74,37 +93,26 @@ KeptPairs::KeptPairs(const Problem& problem, Context& context)
         a_.push_back(instances[query.a]);
         b_.push_back(instances[query.b]);
     }
-    if (problem.task == Task::vertex_penetration) {
-        Batch batch;
-        tools::add_query(batch, scene.queries.front().request, {}, {});
-        query_ = std::get<PenetrationQuery>(batch.queries().front());
-        rows_.resize(a_.size());
-    } else {
-        intersects_.resize(a_.size());
-    }
 }
 
 double KeptPairs::run_frame() {
-    const auto milliseconds_of_call = [](const auto& call) {
-        return benchmark::milliseconds_of_short([&] {
-            if (const Status status = call(); !status.ok()) {
-                tools::require(status, "bench_peers");
-            }
-        });
-    };
-    return rows_.empty()
-               ? milliseconds_of_call([&] { return world_.test_pairs(a_, b_, intersects_); })
-               : milliseconds_of_call(
-                     [&] { return world_.find_penetrations(query_, a_, b_, rows_); });
+    PairTableBase& table = problem_.task == Task::vertex_penetration
+                               ? static_cast<PairTableBase&>(penetrations_)
+                               : static_cast<PairTableBase&>(tests_);
+    return benchmark::milliseconds_of_short([&] {
+        if (const Status status = world_.update(table, {.a = a_, .b = b_}); !status.ok()) {
+            tools::require(status, "bench_peers");
+        }
+    });
 }
 
-void KeptPairs::require_same(const std::vector<const AnyResult*>& results) const {
+void KeptPairs::require_same(const std::vector<const AnyResult*>& results) {
     for (std::size_t i = 0; i < results.size(); ++i) {
         bool is_same = false;
         if (const auto* const test = std::get_if<IntersectionTestResult>(results[i])) {
-            is_same = test->intersects == (intersects_[i] != 0);
+            is_same = test->intersects == tests_.rows()[i].intersects;
         } else if (const auto* const penetration = std::get_if<PenetrationResult>(results[i])) {
-            const PairRow<PenetrationQuery>& row = rows_[i];
+            const PairRow<PenetrationQuery>& row = penetrations_.rows()[i];
             is_same = row.status == StatusCode::ok && row.intersects == penetration->intersects &&
                       row.count == penetration->count &&
                       row.deepest.depth == penetration->deepest.depth;

@@ -46,16 +46,15 @@ public:
     double run_frame();
 
     /// Throws unless the answers of the last frame are these results.
-    void require_same(const std::vector<const AnyResult*>& results) const;
+    void require_same(const std::vector<const AnyResult*>& results);
 
 private:
     const Problem& problem_;
     World world_;
     std::vector<InstanceHandle> a_;
     std::vector<InstanceHandle> b_;
-    PenetrationQuery query_;  // of every pair
-    std::vector<std::uint8_t> intersects_;
-    std::vector<PairRow<PenetrationQuery>> rows_;
+    PairTable<IntersectionTestQuery> tests_;
+    PairTable<PenetrationQuery> penetrations_;
 };
 
 }  // namespace nearfield::peers

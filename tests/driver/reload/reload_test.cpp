@@ -1,10 +1,11 @@
 #include <nearfield/diagnostics.hpp>
 #include <nearfield/world.hpp>
-#include <nearfield/world_device.hpp>
+#include <nearfield/world_pairs.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/driver/world.hpp>
 #include <tests/support/driver_errors.hpp>
+#include <tests/support/pair_tables.hpp>
 #include <tests/support/shader_folder.hpp>
 
 #include <map>
@@ -96,7 +97,7 @@ TEST_F(ReloadedShaders, WaitForBatchesInFlightToBeCollected) {
 
 TEST_F(ReloadedShaders, WaitForTablesOfPairsInFlightToBeCollected) {
     nearfield::World world = *nearfield::World::create(world_.context());
-    DevicePairTable<PenetrationQuery> table({.tolerance = 0.1});
+    PairTable<PenetrationQuery> table({.tolerance = 0.1}, on_device);
     ASSERT_TRUE(world.submit(table).ok());
     const Status status = reload().error();
     EXPECT_EQ(status.code(), StatusCode::not_ready) << status.text();
@@ -104,7 +105,7 @@ TEST_F(ReloadedShaders, WaitForTablesOfPairsInFlightToBeCollected) {
     change();
     EXPECT_EQ(*reload(), 1U);
     ASSERT_TRUE(world.submit(table).ok());
-    table = DevicePairTable<PenetrationQuery>({.tolerance = 0.1});
+    table = PairTable<PenetrationQuery>({.tolerance = 0.1}, on_device);
     folder_.restore("collect_masks.comp");
     EXPECT_EQ(*reload(), 1U);
 }

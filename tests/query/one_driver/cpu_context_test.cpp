@@ -2,6 +2,7 @@
 #include <tests/query/every_query.hpp>
 #include <tests/query/host_table.hpp>
 #include <tests/query/query_test.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <chrono>
 #include <map>
@@ -250,7 +251,7 @@ TEST_F(TechniqueSettings, PipelinesMadeOnDemandAreInNoTime) {
     for (const ShapeHandle shape : {shapes.a, shapes.b}) {
         EXPECT_TRUE(world.add({.shape = shape}).has_value());
     }
-    DevicePairTable table(PenetrationQuery{.tolerance = 0.1});
+    PairTable table(PenetrationQuery{.tolerance = 0.1}, on_device);
     expect_without([&] {
         EXPECT_TRUE(world.update(table).ok());
         return table.timings();

@@ -3,6 +3,7 @@
 #include <tests/support/buffer_hazards.hpp>
 #include <tests/support/host_frames.hpp>
 #include <tests/support/host_gpu.hpp>
+#include <tests/support/pair_tables.hpp>
 #include <tests/support/vulkan_host.hpp>
 
 #include <algorithm>
@@ -99,7 +100,7 @@ protected:
                                          .pose = {{0.5 * i, 0.0}, 0.1 * i}};
             ASSERT_TRUE(world->add(instance).has_value());
         }
-        DevicePairTable<Query> table(query);
+        PairTable<Query> table(query, on_device);
         const Status status = world->update(table);
         EXPECT_TRUE(status.ok()) << status.text();
         EXPECT_GT(table.size(), 0U);
@@ -151,8 +152,8 @@ protected:
         poses.size = 16 * count;
         poses.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
         poses.before = {};  // the host has written it, before the submission
-        DevicePairTable<Query> table(query);
-        const Status status = world->update(table, poses);
+        PairTable<Query> table(query, on_device);
+        const Status status = world->update(table, at_poses(poses));
         EXPECT_TRUE(status.ok()) << status.text();
         EXPECT_GT(table.size(), 0U);
     }

@@ -2,6 +2,7 @@
 #include <tests/query/every_query.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/incoherent_memory.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <vector>
 
@@ -25,7 +26,7 @@ protected:
         std::vector<double> numbers;
         Expected<World> world = World::create(*context);
         EXPECT_TRUE(world.has_value()) << world.error().text();
-        DevicePairTable<PenetrationQuery> table({.tolerance = 0.05});
+        PairTable<PenetrationQuery> table({.tolerance = 0.05}, on_device);
         DeviceRays rays;
         DeviceNearest nearest;
         for (int i = 0; i < 2; ++i) {
@@ -72,7 +73,7 @@ protected:
 
     /// The rows and records of all pairs, after more instances were added.
     static void add_pairs(World& world, const std::vector<ShapeHandle>& shapes,
-                          DevicePairTable<PenetrationQuery>& table, std::vector<double>& numbers) {
+                          PairTable<PenetrationQuery>& table, std::vector<double>& numbers) {
         for (const ShapeHandle shape : shapes) {
             const auto x = static_cast<double>(world.size());
             const Pose pose{{0.5 * x, 0.0}, x};
@@ -81,11 +82,9 @@ protected:
         const Status status = world.update(table);
         EXPECT_TRUE(status.ok()) << status.text();
         EXPECT_GT(table.size(), 0U);
-        std::vector<PenetrationRecord> records;
         for (std::uint32_t row = 0; row < table.size(); ++row) {
             numbers.push_back(table.row(row)->deepest.depth);
-            EXPECT_TRUE(table.records(row, records).ok());
-            for (const PenetrationRecord& record : records) {
+            for (const PenetrationRecord& record : records_of(table, row)) {
                 numbers.push_back(record.depth);
             }
         }

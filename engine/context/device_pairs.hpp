@@ -12,7 +12,8 @@
 #include <engine/render/pair_search_buffers.hpp>
 #include <engine/world/instances.hpp>
 #include <nearfield/device_poses.hpp>
-#include <nearfield/world_device.hpp>
+#include <nearfield/resident_pairs.hpp>
+#include <nearfield/submission.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -22,27 +23,50 @@
 
 namespace nearfield {
 
-/// What a table keeps from update to update, and what it answers rows from. Its members throw.
-struct DevicePairTableBase::State {
-    /// `reach`: of separations and closest points.
-    State(const AnyQuery& query, double reach);
-    ~State();
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
+/// A world, and where the poses of its instances are.
+struct PairSource : WorldOnDevice {
+    const DevicePoses* poses = nullptr;  // of the host; null: the instances' own
+};
 
-    /// A world, and where the poses of its instances are.
-    struct Source : WorldOnDevice {
-        const DevicePoses* poses = nullptr;  // of the host; null: the instances' own
-    };
-    /// Bring the rows up to date with a world, at once or in two halves.
-    void update(Context::Implementation& with, const Source& source);
-    void submit(Context::Implementation& with, const Source& source);
-    void collect();
-    /// In place of submit(): records what the host submits, for as many times as collect().
-    void record(Context::Implementation& with, const Source& source, const Recording& recording);
+/// The pairs of a table that the device finds and answers, and what rows are read from. Its members
+/// throw; after start() or finish() has, start_anew() has to be called.
+class DevicePairs {
+public:
+    /// Precondition: plan::is_for_all_pairs(query), which has to stay. `reach`: of separations and
+    /// closest points.
+    DevicePairs(const AnyQuery& query, double reach, Timings& timings);
+    ~DevicePairs();
+    DevicePairs(const DevicePairs&) = delete;
+    DevicePairs& operator=(const DevicePairs&) = delete;
+
+    /// Lets the device begin, or records what it does into commands of the host, which submits them
+    /// as many times as it calls collect_recorded(). `call`: for messages.
+    void start(const char* call, Context::Implementation& with, const PairSource& source,
+               const Recording* recording = nullptr);
+    /// Waits, and makes the rows of what was started.
+    void finish();
+    /// The same of what was recorded; what uses it stays whatever happens.
+    void collect_recorded();
+    void start_anew();
+    /// Throws unless it may be started again.
+    void require_collected(const char* call) const;
+    /// Throws unless the frame that it was recorded for, if it was, is complete.
+    void require_complete_frame(const char* call) const;
+    [[nodiscard]] bool is_submitted() const { return is_submitted_; }
+    [[nodiscard]] bool is_for_frame() const { return frame_.has_value(); }
     /// Whether what was recorded is about the source as it is, and has room.
-    [[nodiscard]] bool is_recorded(const Context::Implementation& with, const Source& source) const;
+    [[nodiscard]] bool is_recorded(const Context::Implementation& with,
+                                   const WorldOnDevice& source) const;
     [[nodiscard]] bool is_ready() const;
+    /// Precondition: the query is resident.
+    [[nodiscard]] ResidentPairs resident() const;
+    [[nodiscard]] std::uint32_t size() const { return rows_; }
+    [[nodiscard]] std::uint32_t candidates() const;
+    [[nodiscard]] std::uint32_t left_to_cpu() const {
+        return static_cast<std::uint32_t>(decided_.size());
+    }
+
+    // Preconditions: `index` is below size(); of records, the query has them.
     void row(std::uint32_t index, PairRow<PenetrationQuery>& row);
     void row(std::uint32_t index, PairRow<ContactQuery>& row);
     void row(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
@@ -50,17 +74,7 @@ struct DevicePairTableBase::State {
     void row(std::uint32_t index, PairRow<SeparationQuery>& row) { row_of_cpu(index, row); }
     void records(std::uint32_t index, std::vector<PenetrationRecord>& records);
     void records(std::uint32_t index, std::vector<ContactRecord>& records);
-    void records(std::uint32_t index, std::vector<NoRecord>& records) const;
     void manifold(std::uint32_t index, std::vector<ContactCluster>& manifold);
-
-    std::uint32_t rows = 0;
-    Timings timings;
-
-    [[nodiscard]] ResidentPairs resident() const;
-    [[nodiscard]] std::uint32_t candidates() const;
-    [[nodiscard]] std::uint32_t left_to_cpu() const {
-        return static_cast<std::uint32_t>(decided_.size());
-    }
 
 private:
     /// A pose of the host's is taken when it is needed (pair_of()).
@@ -73,24 +87,8 @@ private:
         plan::PairRowData pair;  // its instances
     };
 
-    void start_anew();
     void set_submitted(bool is_submitted);
-    /// Throws what the action throws, after which the table is empty.
-    template <class Action>
-    void run_or_start_anew(Context::Implementation& context, const Action& action) {
-        const Status status = context.unless_lost(action);
-        if (!status.ok()) {
-            start_anew();
-            throw StatusException(status);
-        }
-    }
-    void require_collected(const char* call) const;
-    void require_complete_frame(const char* call) const;
     void report_open_frame() const noexcept;
-    /// Lets the device begin, or records what it does into commands of the host. `call`: for
-    /// messages.
-    void start(const char* call, Context::Implementation& with, const Source& source,
-               VkCommandBuffer commands = VK_NULL_HANDLE);
     void set_poses(const DevicePoses* poses);
     /// Says where the device finds the host's poses. `call`: for messages.
     void find_poses(const char* call);
@@ -102,8 +100,6 @@ private:
     void require_usable_poses();
     /// What the device has lost where it took the pose of an instance.
     [[nodiscard]] double rounding_of(const PairInstance& entry) const;
-    void finish();
-    void collect_recorded();
     void check(const char* call) const;
     void order_instances(const world::Instances& instances);
     [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
@@ -111,8 +107,8 @@ private:
     [[nodiscard]] bool do_share_a_point(const plan::PairRowData& pair);
     void answer_undecided();
     void decide();
-    /// The device's row of a row of the table. `call`: for the message.
-    [[nodiscard]] std::uint32_t device_row(const char* call, std::uint32_t index) const;
+    /// The device's row of a row of the table.
+    [[nodiscard]] std::uint32_t device_row(std::uint32_t index) const;
     /// What the CPU answered; null if the device decided.
     [[nodiscard]] const AnyResult* find_decided(std::uint32_t row) const;
     [[nodiscard]] AnyQuery query_on_cpu(const plan::PairRowData& data, bool with_records) const;
@@ -122,13 +118,12 @@ private:
     [[nodiscard]] const AnyResult& answer_on_cpu(const plan::PairRowData& data, bool with_records);
     template <class Query>
     void row_of_cpu(std::uint32_t index, PairRow<Query>& row) {
-        const std::uint32_t number = device_row("row", index);
+        const std::uint32_t number = device_row(index);
         const plan::PairRowData data = pair_of(number);
         const AnyResult* const decided = find_decided(number);
         const AnyResult& answer = decided != nullptr ? *decided : answer_on_cpu(data, false);
         fill(row, data, std::get<typename Query::Result>(answer));
     }
-    void require_records() const;
     void begin(const plan::PairRowData& data);
     void add_points(std::span<const plan::FoundPointData> found, plan::PlannedQuery& planned);
     /// Those of a row of the device.
@@ -147,7 +142,8 @@ private:
         }
     }
 
-    const AnyQuery query_;
+    const AnyQuery& query_;
+    Timings& timings_;
     const plan::PairQuestion question_;  // that it asks of the device
     std::optional<DevicePoses> poses_;   // of the host
     records::PointResolver resolver_;
@@ -155,6 +151,7 @@ private:
     std::weak_ptr<const void> world_;
     std::unique_ptr<render::PairSearchBuffers> buffers_;
     DeviceInstances instances_{query_, question_};
+    std::uint32_t rows_ = 0;
     std::vector<Decided> decided_;  // in ascending order of the rows
     Results decided_results_;
     std::vector<std::uint32_t> dropped_rows_;  // of the device, in ascending order

@@ -1,0 +1,836 @@
+// Tables of pairs: what is asked, who answers it, and how the CPU does.
+
+#include <engine/base/interruption.hpp>
+#include <engine/base/jobs.hpp>
+#include <engine/base/stopwatch.hpp>
+#include <engine/context/call_within.hpp>
+#include <engine/context/pair_row.hpp>
+#include <engine/context/pair_table_state.hpp>
+#include <engine/context/world_checks.hpp>
+#include <engine/context/world_implementation.hpp>
+#include <engine/cpu/point_penetration.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
+#include <engine/plan/error_budget.hpp>
+#include <engine/world/motions.hpp>
+#include <engine/world/pair_list.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace nearfield {
+namespace table {
+
+/// The number of pairs that a job takes at a time.
+constexpr std::size_t pairs_of_part = 128;
+constexpr std::size_t queries_of_batch = 4096;
+
+template <class Query>
+constexpr bool has_distance = requires(const typename Query::Result& result) {
+    result.distance;
+};
+
+/// One list per row, all in one piece. Those that were never added are empty.
+template <class Element>
+class RowLists {
+public:
+    void clear() {
+        elements_.clear();
+        ends_.clear();
+    }
+    void add(std::span<const Element> list) {
+        add_elements(list);
+        ends_.push_back(static_cast<std::uint32_t>(elements_.size()));
+    }
+    /// Those of consecutive rows.
+    void add(const RowLists& from, std::size_t first, std::size_t end) {
+        if (from.ends_.empty()) {
+            return;
+        }
+        const std::size_t begin = from.begin_of(first);
+        const std::size_t before = elements_.size();
+        add_elements(std::span(from.elements_).subspan(begin, from.begin_of(end) - begin));
+        for (std::size_t row = first; row < end; ++row) {
+            ends_.push_back(static_cast<std::uint32_t>(before + from.ends_[row] - begin));
+        }
+    }
+    [[nodiscard]] std::span<const Element> operator[](std::size_t row) const {
+        if (row >= ends_.size()) {
+            return {};
+        }
+        return std::span(elements_).subspan(begin_of(row), ends_[row] - begin_of(row));
+    }
+
+private:
+    [[nodiscard]] std::size_t begin_of(std::size_t row) const {
+        return row == 0 ? 0 : ends_[row - 1];
+    }
+    void add_elements(std::span<const Element> elements) {
+        if (elements_.size() + elements.size() > UINT32_MAX) {
+            throw StatusException({StatusCode::too_large,
+                                   "update: the table has more records than 32 bits can count"});
+        }
+        elements_.insert(elements_.end(), elements.begin(), elements.end());
+    }
+
+    std::vector<Element> elements_;
+    std::vector<std::uint32_t> ends_;  // of each row's
+};
+
+/// The rows of a table.
+template <class Query>
+struct Content {
+    std::vector<PairRow<Query>> rows;
+    RowLists<typename Query::Result::Record> records;
+    RowLists<ContactCluster> manifolds;  // of contacts
+
+    void clear() {
+        rows.clear();
+        records.clear();
+        manifolds.clear();
+    }
+    /// Appends the answer for a pair.
+    void add(InstanceHandle a, InstanceHandle b, const typename Query::Result& result) {
+        PairRow<Query>& row = rows.emplace_back(row_of<Query>(a, b, result));
+        row.index = static_cast<std::uint32_t>(rows.size() - 1);
+        if constexpr (requires { result.samples; }) {
+            records.add(result.samples);
+        } else if constexpr (requires { result.records; }) {
+            records.add(result.records);
+        }
+        row.record_count = static_cast<std::uint32_t>(records[row.index].size());
+        if constexpr (requires { result.manifold; }) {
+            manifolds.add(result.manifold);
+        }
+    }
+    /// Appends consecutive rows of another one.
+    void add(const Content& from, std::size_t first, std::size_t end) {
+        if (first == end) {
+            return;
+        }
+        const std::size_t before = rows.size();
+        rows.insert(rows.end(), from.rows.begin() + static_cast<std::ptrdiff_t>(first),
+                    from.rows.begin() + static_cast<std::ptrdiff_t>(end));
+        for (std::size_t i = before; i < rows.size(); ++i) {
+            rows[i].index = static_cast<std::uint32_t>(i);
+        }
+        records.add(from.records, first, end);
+        manifolds.add(from.manifolds, first, end);
+    }
+};
+
+/// Two instances by their indices in the world.
+struct Pair {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+};
+
+/// What one job needs to answer pairs without a batch.
+struct Job {
+    narrowphase::OverlapTest overlap_test;
+    std::optional<cpu::PointPenetration> penetration;  // whose construction may fail
+    cpu::PointPenetration::Reverse reverse;            // of the pair before
+    PenetrationResult result;
+};
+
+/// Whether the CPU answers these queries from what the world keeps of its instances, which is
+/// quicker than a batch.
+static bool is_answered_in_place(const IntersectionTestQuery& /*query*/) {
+    return true;
+}
+static bool is_answered_in_place(const PenetrationQuery& query) {
+    return query.points == PenetrationPoints::vertices && !query.records;
+}
+
+/// The answer for two instances whose shapes exist.
+static IntersectionTestResult answer(const IntersectionTestQuery& /*query*/,
+                                     const world::Instances& instances, const Pair& pair,
+                                     bool /*is_reverse*/, Job& job) {
+    IntersectionTestResult result;
+    result.error_bound = instances.rounding(pair.a) + instances.rounding(pair.b) +
+                         instances.deviation(pair.a) + instances.deviation(pair.b);
+    result.intersects = instances.intersect(pair.a, pair.b, job.overlap_test);
+    return result;
+}
+
+/// Likewise. `is_reverse`: the pair before was the same the other way round.
+static const PenetrationResult& answer(const PenetrationQuery& query,
+                                       const world::Instances& instances, const Pair& pair,
+                                       bool is_reverse, Job& job) {
+    PenetrationResult& result = job.result;
+    result.intersects = false;
+    result.count = 0;
+    result.deepest = {};
+    const plan::Deviations deviations{instances.deviation(pair.a), instances.deviation(pair.b)};
+    result.error_bound = plan::penetration_budget(query, deviations).bound;
+    result.status = plan::check_deviations(query.tolerance, deviations, result.error_bound);
+    if (result.status.ok()) {
+        result.status = plan::check_resolution(
+            query.tolerance, std::max(instances.magnitude(pair.a), instances.magnitude(pair.b)));
+    }
+    if (result.status.ok() && instances.boxes_meet(pair.a, pair.b)) {
+        if (!job.penetration) {
+            job.penetration.emplace();
+        }
+        job.penetration->answer(query, instances.edges(pair.a), instances.edges(pair.b),
+                                is_reverse ? &job.reverse : nullptr, result);
+    }
+    job.reverse.intersects = result.intersects;
+    return result;
+}
+
+/// The row of a pair that is answered in place.
+template <class Query>
+PairRow<Query> row_in_place(const world::Instances& instances, const Query& query, const Pair& pair,
+                            bool is_reverse, Job& job) {
+    PairRow<Query> row;
+    if (instances.is_placed(pair.a) && instances.is_placed(pair.b)) {
+        row = row_of<Query>({}, {}, answer(query, instances, pair, is_reverse, job));
+    } else {
+        row.status = StatusCode::unknown_shape;
+    }
+    row.a = instances.handle(pair.a);
+    row.b = instances.handle(pair.b);
+    return row;
+}
+
+/// The technique that the caller asks for, of the table or else of the query.
+static Technique asked_technique(const char* call, const AnyQuery& query,
+                                 const PairTableOptions& options) {
+    const Technique own = std::visit([](const auto& any) { return any.technique; }, query);
+    if (own != Technique::automatic && options.technique != Technique::automatic &&
+        own != options.technique) {
+        refuse(call,
+               "the table is answered by Technique::" + std::string(to_string(options.technique)) +
+                   ", and its query asks for Technique::" + to_string(own));
+    }
+    return options.technique != Technique::automatic ? options.technique : own;
+}
+
+static bool is_resident(const AnyQuery& query) {
+    return std::visit(
+        [](const auto& any) {
+            if constexpr (requires { any.resident; }) {
+                return any.resident;
+            } else {
+                return false;
+            }
+        },
+        query);
+}
+
+/// What Technique::automatic is for a table. `needs_device`: nothing else can answer it.
+static Technique automatic_technique(const Context::Implementation& context, const AnyQuery& query,
+                                     const PairTableOptions& options, bool needs_device) {
+    const bool is_quick = context.device() != nullptr && !context.device()->is_software() &&
+                          context.techniques().compute;
+    const bool is_answered = options.hits_only && !options.listed && plan::is_for_all_pairs(query);
+    return needs_device || (is_quick && is_answered) ? Technique::compute : Technique::cpu;
+}
+
+/// Refuses what the device does not answer.
+static void require_for_device(const char* call, const AnyQuery& query,
+                               const PairTableOptions& options) {
+    if (options.listed) {
+        refuse(call, "Technique::compute finds its pairs; a list of them is for Technique::cpu");
+    }
+    if (!options.hits_only) {
+        refuse(call,
+               "Technique::compute finds the pairs that are hit; a table of all candidates "
+               "(hits_only = false) is for Technique::cpu");
+    }
+    if (!plan::is_for_all_pairs(query)) {
+        refuse(call, std::holds_alternative<ContactQuery>(query)
+                         ? "the contacts of these pairs have analytic normals"
+                         : "Technique::compute does not answer this query of pairs of a world");
+    }
+    const auto* const penetration = std::get_if<PenetrationQuery>(&query);
+    const auto* const contacts = std::get_if<ContactQuery>(&query);
+    if ((penetration != nullptr && penetration->target != nullptr) ||
+        (contacts != nullptr && contacts->target != nullptr)) {
+        refuse(call,
+               "the device has these results in memory of its own; the table's query names a "
+               "target");
+    }
+}
+
+}  // namespace table
+
+template <class Action>
+void PairTableBase::State::run_or_start_anew(Context::Implementation& context,
+                                             const Action& action) {
+    const Status status = context.unless_lost(action);
+    if (!status.ok()) {
+        start_anew();
+        throw StatusException(status);
+    }
+}
+
+void PairTableBase::State::start_anew() {
+    is_submitted_ = false;
+    row_count = candidate_count = answer_count = 0;
+    forget_answers();
+    forget_exact_rows();
+    if (device != nullptr) {
+        device->start_anew();
+    }
+}
+
+void PairTableBase::State::require_collected(const char* call) const {
+    if (device != nullptr) {
+        device->require_collected(call);
+    }
+    if (is_submitted_) {
+        throw StatusException(
+            {StatusCode::not_ready,
+             std::string(call) + ": the table was submitted, and has not been collected since"});
+    }
+}
+
+void PairTableBase::State::choose(const char* call, const WorldView& world,
+                                  const PairTableInput& input, bool is_recorded) {
+    if (!(options.reach >= 0.0 && options.reach <= largest_coordinate)) {
+        refuse(call, "the reach is " + geometry::number(options.reach) +
+                         "; it must be a finite number of at least 0");
+    }
+    if (input.a.size() != input.b.size()) {
+        refuse(call, std::to_string(input.a.size()) + " and " + std::to_string(input.b.size()) +
+                         " instances form no pairs");
+    }
+    if (!options.listed && !input.a.empty()) {
+        refuse(call, "pairs are given to a table that finds its own");
+    }
+    if (!std::holds_alternative<TimeOfImpactQuery>(query) &&
+        !(input.moving.empty() && input.ends.empty())) {
+        refuse(call, "motions are given to a table that asks for no times of impact");
+    }
+    const bool needs_device = is_recorded || input.poses != nullptr || table::is_resident(query);
+    Technique technique = table::asked_technique(call, query, options);
+    if (technique == Technique::automatic) {
+        technique = table::automatic_technique(world.context, query, options, needs_device);
+    }
+    if (technique == Technique::raster) {
+        refuse(call, "pairs of a world are answered by Technique::cpu or compute");
+    }
+    if (technique == Technique::compute) {
+        table::require_for_device(call, query, options);
+        if (device == nullptr) {
+            start_anew();
+            device = std::make_unique<DevicePairs>(query, options.reach, timings);
+        }
+    } else {
+        if (needs_device) {
+            refuse(call,
+                   "commands of the host, poses that they write and resident results are for "
+                   "Technique::compute; the table is answered by Technique::cpu");
+        }
+        if (device != nullptr) {
+            start_anew();
+            device.reset();
+        }
+    }
+}
+
+void PairTableBase::State::begin(const char* call, const WorldView& world,
+                                 const PairTableInput& input, const Recording* recording) {
+    choose(call, world, input, recording != nullptr);
+    read_status = {};
+    forget_exact_rows();
+    if (device != nullptr) {
+        device->start(call, world.context, {{world.identity, world.instances}, input.poses},
+                      recording);
+        return;
+    }
+    const Stopwatch total;
+    timings = {};
+    answer(call, world, input);
+    is_submitted_ = true;
+    timings.total = total.milliseconds();
+    timings.decode = timings.total - timings.plan;
+}
+
+void PairTableBase::State::finish() {
+    if (device != nullptr) {
+        device->finish();
+    }
+    is_submitted_ = false;
+}
+
+void PairTableBase::State::update(const WorldView& world, const PairTableInput& input) {
+    require_collected("update");
+    context_ = &world.context;
+    run_or_start_anew(world.context, [&] {
+        begin("update", world, input, nullptr);
+        finish();
+    });
+}
+
+void PairTableBase::State::submit(const WorldView& world, const PairTableInput& input) {
+    require_collected("submit");
+    context_ = &world.context;
+    run_or_start_anew(world.context, [&] { begin("submit", world, input, nullptr); });
+}
+
+void PairTableBase::State::record(const WorldView& world, const PairTableInput& input,
+                                  const Recording& recording) {
+    world.context.ring().begin_frame(recording);
+    require_collected("record");
+    context_ = &world.context;
+    run_or_start_anew(world.context, [&] { begin("record", world, input, &recording); });
+}
+
+void PairTableBase::State::collect() {
+    const bool is_for_frame = device != nullptr && device->is_for_frame();
+    if (is_for_frame) {
+        device->require_complete_frame("collect");
+    } else if (!is_submitted_ && (device == nullptr || !device->is_submitted())) {
+        throw StatusException({StatusCode::not_ready, "collect: the table was not submitted"});
+    }
+    read_status = {};
+    forget_exact_rows();
+    if (is_for_frame) {
+        device->collect_recorded();
+    } else {
+        run_or_start_anew(*context_, [&] { finish(); });
+    }
+}
+
+bool PairTableBase::State::is_recorded(const WorldView& world) const {
+    return device != nullptr &&
+           device->is_recorded(world.context, {world.identity, world.instances});
+}
+
+bool PairTableBase::State::is_ready() const {
+    return device != nullptr ? device->is_ready() : is_submitted_;
+}
+
+ResidentPairs PairTableBase::State::resident() const {
+    if (!table::is_resident(query)) {
+        refuse("resident", "the table's query does without results that stay on the device");
+    }
+    if (device == nullptr) {
+        throw StatusException({StatusCode::not_ready, "resident: the table was not submitted"});
+    }
+    return device->resident();
+}
+
+std::uint32_t PairTableBase::State::size() const {
+    return device != nullptr ? device->size() : is_submitted_ ? 0 : row_count;
+}
+
+std::uint32_t PairTableBase::State::candidates() const {
+    return device != nullptr ? device->candidates() : is_submitted_ ? 0 : candidate_count;
+}
+
+std::uint32_t PairTableBase::State::left_to_cpu() const {
+    return device != nullptr ? device->left_to_cpu() : is_submitted_ ? 0 : answer_count;
+}
+
+PairTableBase::PairTableBase(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+PairTableBase::~PairTableBase() = default;
+PairTableBase::PairTableBase(PairTableBase&&) noexcept = default;
+PairTableBase& PairTableBase::operator=(PairTableBase&&) noexcept = default;
+
+const PairTableOptions& PairTableBase::options() const noexcept {
+    return state_->options;
+}
+
+std::uint32_t PairTableBase::size() const noexcept {
+    return state_->size();
+}
+
+std::uint32_t PairTableBase::candidates() const noexcept {
+    return state_->candidates();
+}
+
+std::uint32_t PairTableBase::left_to_cpu() const noexcept {
+    return state_->left_to_cpu();
+}
+
+const Timings& PairTableBase::timings() const noexcept {
+    return state_->timings;
+}
+
+Status PairTableBase::collect(const Limits& limits) {
+    return catch_within(limits, [&] { state_->collect(); });
+}
+
+bool PairTableBase::is_ready() const noexcept {
+    return state_->is_ready();
+}
+
+Expected<ResidentPairs> PairTableBase::resident() const {
+    ResidentPairs pairs;
+    Status status = catch_to_status([&] { pairs = state_->resident(); });
+    return status.ok() ? Expected<ResidentPairs>(pairs) : status;
+}
+
+const Status& PairTableBase::read_status() const noexcept {
+    return state_->read_status;
+}
+
+/// The rows of a table of one kind, and how the CPU answers them.
+template <class Query>
+struct PairTable<Query>::Rows final : State {
+    using Row = PairRow<Query>;
+
+    Rows(const Query& query, const PairTableOptions& options) : State(query, options) {}
+
+    [[nodiscard]] std::span<const Row> rows() {
+        if (device != nullptr) {
+            make_exact();
+        }
+        return std::span(now_.rows).first(size());
+    }
+    [[nodiscard]] Row row(std::uint32_t index) {
+        if (index >= size()) {
+            refuse("row", "there is no row " + std::to_string(index) + "; the table has " +
+                              std::to_string(size()));
+        }
+        return device == nullptr || are_exact_ ? now_.rows[index] : exact_row(index);
+    }
+    [[nodiscard]] std::span<const Record> records(const Row& row) {
+        if (row.index >= size() || row.record_count == 0) {
+            return {};
+        }
+        if constexpr (requires { device->records(0U, records_); }) {
+            if (device != nullptr) {
+                device->records(row.index, records_);
+                return records_;
+            }
+        }
+        return now_.records[row.index];
+    }
+    [[nodiscard]] std::span<const ContactCluster> manifold(const Row& row) {
+        if (row.index >= size()) {
+            return {};
+        }
+        if (device != nullptr) {
+            device->manifold(row.index, manifold_);
+            return manifold_;
+        }
+        return now_.manifolds[row.index];
+    }
+    /// Does what reads rows, unless there is no memory for it.
+    template <class Read>
+    auto read(const Read& read_rows) noexcept {
+        decltype(read_rows()) found;
+        if (Status status = catch_to_status([&] { found = read_rows(); }); !status.ok()) {
+            read_status = std::move(status);
+        }
+        return found;
+    }
+
+private:
+    void answer(const char* call, const WorldView& world, const PairTableInput& input) override {
+        const Query query = asked_of_cpu(call);
+        world.prepare();
+        if (world_.lock() != world.identity) {
+            forget_answers();
+            world_ = world.identity;
+            jobs_.emplace(world.context.jobs());
+            scratch_ = std::vector<table::Job>(jobs_->count());
+        }
+        if (options.listed) {
+            answer_list(call, world, query, input);
+        } else {
+            find_pairs(call, world.instances, input);
+            answer_new_pairs(world, query);
+            merge_rows();
+        }
+        row_count = static_cast<std::uint32_t>(now_.rows.size());
+    }
+
+    void forget_answers() override {
+        motions_.clear();
+        list_.clear();
+        row_of_.clear();
+        now_.clear();
+        world_.reset();
+    }
+
+    void forget_exact_rows() override { are_exact_ = false; }
+
+    void make_exact() {
+        if (are_exact_) {
+            return;
+        }
+        now_.clear();
+        now_.rows.resize(size());
+        for (std::uint32_t i = 0; i < size(); ++i) {
+            now_.rows[i] = exact_row(i);
+        }
+        are_exact_ = true;
+    }
+
+    /// Of the device.
+    [[nodiscard]] Row exact_row(std::uint32_t index) {
+        Row row;
+        if constexpr (requires { device->row(index, row); }) {
+            device->row(index, row);
+        }
+        row.index = index;
+        return row;
+    }
+
+    [[nodiscard]] Query asked_of_cpu(const char* call) const {
+        Query query = std::get<Query>(this->query);
+        query.technique = Technique::cpu;
+        if (Status status = plan::check_query(query, {}); !status.ok()) {
+            refuse(call, status.message());
+        }
+        if (options.listed && has_motions) {
+            refuse(call, "times of impact are not asked of a list of pairs");
+        }
+        return query;
+    }
+
+    /// How far apart the boxes of candidates may be.
+    [[nodiscard]] double reach() const {
+        // No other answers make hits of pairs that are farther apart.
+        const double reach = options.hits_only && !table::has_distance<Query> ? 0.0 : options.reach;
+        if constexpr (requires(Query query) { query.contact_distance; }) {
+            return std::max(reach, std::get<Query>(query).contact_distance);
+        } else {
+            return reach;
+        }
+    }
+
+    void find_pairs(const char* call, const world::Instances& instances,
+                    const PairTableInput& input) {
+        const Stopwatch start;
+        if constexpr (has_motions) {
+            require_moves(call, instances, input.moving, input.ends);
+            motions_.update(instances, input.moving, input.ends);
+            list_.update(instances, motions_, reach());
+        } else {
+            list_.update(instances, reach(), !plan::is_symmetric<Query>);
+        }
+        candidate_count = static_cast<std::uint32_t>(list_.pairs().size());
+        timings.plan = start.milliseconds();
+    }
+
+    /// Those that are new or have changed.
+    void answer_new_pairs(const WorldView& world, const Query& query) {
+        const auto pairs = list_.pairs();
+        const auto fresh = list_.new_pairs();
+        answer_pairs(world, query, fresh.size(), [&](std::size_t i) {
+            const world::PairList::Pair& pair = pairs[fresh[i]];
+            return table::Pair{pair.a, pair.b};
+        });
+    }
+
+    void answer_list(const char* call, const WorldView& world, const Query& query,
+                     const PairTableInput& input) {
+        candidate_count = static_cast<std::uint32_t>(input.a.size());
+        answer_pairs(world, query, input.a.size(), [&](std::size_t i) {
+            return table::Pair{world.instances.find(input.a[i], call),
+                               world.instances.find(input.b[i], call)};
+        });
+        if (!options.hits_only) {
+            std::swap(now_, answered_);
+            return;
+        }
+        now_.clear();
+        for (std::size_t i = 0; i < answered_.rows.size(); ++i) {
+            now_.add(answered_, i, has_row(answered_.rows[i]) ? i + 1 : i);
+        }
+    }
+
+    /// Whether a pair has a row.
+    [[nodiscard]] bool has_row(const Row& row) const {
+        return !options.hits_only || row.status != StatusCode::ok || is_hit(row, options.reach);
+    }
+
+    /// Makes rows of consecutive pairs: `pair_of(i)` is pair i.
+    template <class PairOf>
+    void answer_pairs(const WorldView& world, const Query& query, std::size_t count,
+                      const PairOf& pair_of) {
+        if constexpr (requires { table::is_answered_in_place(query); }) {
+            if (table::is_answered_in_place(query)) {
+                answer_in_place(world.instances, query, count, pair_of);
+            } else {
+                answer_by_batches(world, query, count, pair_of);
+            }
+        } else {
+            answer_by_batches(world, query, count, pair_of);
+        }
+        answer_count = static_cast<std::uint32_t>(count);
+    }
+
+    template <class PairOf>
+    void answer_in_place(const world::Instances& instances, const Query& query, std::size_t count,
+                         const PairOf& pair_of) {
+        answered_.rows.resize(count);
+        expect_answers(count);
+        jobs_->divide(count, table::pairs_of_part,
+                      [&](std::uint32_t number, std::size_t first, std::size_t end) {
+                          table::Job& job = scratch_[number];
+                          table::Pair before{UINT32_MAX, UINT32_MAX};
+                          for (std::size_t i = first; i < end; ++i) {
+                              checkpoint();
+                              const table::Pair pair = pair_of(i);
+                              const bool is_reverse = pair.a == before.b && pair.b == before.a;
+                              answered_.rows[i] =
+                                  table::row_in_place(instances, query, pair, is_reverse, job);
+                              answered_.rows[i].index = static_cast<std::uint32_t>(i);
+                              before = pair;
+                          }
+                          finish_answers(end - first);
+                      });
+    }
+
+    template <class PairOf>
+    void answer_by_batches(const WorldView& world, Query query, std::size_t count,
+                           const PairOf& pair_of) {
+        answered_.clear();
+        for (std::size_t first = 0; first < count; first += table::queries_of_batch) {
+            const std::size_t end = std::min(first + table::queries_of_batch, count);
+            batch_.clear();
+            pairs_of_batch_.clear();
+            for (std::size_t i = first; i < end; ++i) {
+                const table::Pair pair = pair_of(i);
+                const WorldInstance& a = world.instances[pair.a];
+                const WorldInstance& b = world.instances[pair.b];
+                query.a = {a.shape, a.pose};
+                query.b = {b.shape, b.pose};
+                if constexpr (has_motions) {
+                    query.end_a = motions_.end(pair.a);
+                    query.end_b = motions_.end(pair.b);
+                }
+                batch_.add(query);
+                pairs_of_batch_.push_back(pair);
+            }
+            world.context.ring().run(batch_, results_);
+            checkpoint();  // what was cut must not look whole
+            for (std::size_t i = 0; i < pairs_of_batch_.size(); ++i) {
+                answered_.add(world.instances.handle(pairs_of_batch_[i].a),
+                              world.instances.handle(pairs_of_batch_[i].b),
+                              *std::get_if<typename Query::Result>(&results_.results[i]));
+            }
+        }
+    }
+
+    /// Puts the rows that stay and the new ones into the order of the candidates.
+    void merge_rows() {
+        constexpr std::uint32_t none = world::PairList::none;
+        const auto pairs = list_.pairs();
+        before_.clear();
+        row_of_before_.resize(pairs.size());
+        std::size_t next_answered = 0;
+        for (std::size_t i = 0; i < pairs.size();) {
+            const auto to_row = static_cast<std::uint32_t>(before_.rows.size());
+            if (pairs[i].before == none) {
+                const std::size_t row = next_answered++;
+                const bool is_kept = has_row(answered_.rows[row]);
+                row_of_before_[i] = is_kept ? to_row : none;
+                before_.add(answered_, row, is_kept ? row + 1 : row);
+                ++i;
+                continue;
+            }
+            // A run of pairs that stay has its rows, if they are listed, in one piece.
+            std::uint32_t first = none;
+            std::uint32_t end = 0;
+            const std::size_t begin = i;
+            for (; i < pairs.size() && pairs[i].before == pairs[begin].before + (i - begin); ++i) {
+                const std::uint32_t row = row_of_[pairs[i].before];
+                if (row != none) {
+                    first = std::min(first, row);
+                    end = row + 1;
+                }
+                row_of_before_[i] = row == none ? none : to_row + row - first;
+            }
+            before_.add(now_, std::min(first, end), end);
+        }
+        std::swap(now_, before_);
+        row_of_.swap(row_of_before_);
+    }
+
+    static constexpr bool has_motions = std::is_same_v<Query, TimeOfImpactQuery>;
+
+    std::weak_ptr<const void> world_;  // identity of the one of the last update
+    world::Motions motions_;           // for times of impact
+    world::PairList list_;
+    std::vector<std::uint32_t> row_of_;  // by candidate; PairList::none: no hit
+    std::vector<std::uint32_t> row_of_before_;
+    table::Content<Query> now_;       // or the rows of the device that were made exact
+    table::Content<Query> answered_;  // by the last update
+    table::Content<Query> before_;    // memory for the next update
+    std::optional<Jobs> jobs_;
+    std::vector<table::Job> scratch_;  // by job
+    Batch batch_;
+    Results results_;
+    std::vector<table::Pair> pairs_of_batch_;
+    bool are_exact_ = false;
+    std::vector<Record> records_;  // of the device, that were read last
+    std::vector<ContactCluster> manifold_;
+};
+
+template <class Query>
+PairTable<Query>::PairTable(const Query& query, const PairTableOptions& options)
+    : PairTableBase(std::make_unique<Rows>(query, options)), query_(query) {}
+
+template <class Query>
+typename PairTable<Query>::Rows& PairTable<Query>::state() const noexcept {
+    return static_cast<Rows&>(*state_);
+}
+
+template <class Query>
+std::span<const PairRow<Query>> PairTable<Query>::rows() noexcept {
+    return state().read([this] { return state().rows(); });
+}
+
+template <class Query>
+Expected<PairRow<Query>> PairTable<Query>::row(std::uint32_t index) {
+    PairRow<Query> row;
+    Status status = catch_to_status([&] { row = state().row(index); });
+    return status.ok() ? Expected<PairRow<Query>>(row) : status;
+}
+
+template <class Query>
+std::span<const typename PairTable<Query>::Record> PairTable<Query>::records(
+    const PairRow<Query>& row) noexcept {
+    return state().read([&] { return state().records(row); });
+}
+
+template <class Query>
+std::span<const ContactCluster> PairTable<Query>::manifold(
+    const PairRow<Query>& row) noexcept requires std::is_same_v<Query, ContactQuery> {
+    return state().read([&] { return state().manifold(row); });
+}
+
+template class PairTable<PenetrationQuery>;
+template class PairTable<ContactQuery>;
+template class PairTable<IntersectionQuery>;
+template class PairTable<ClosestPointQuery>;
+template class PairTable<SeparationQuery>;
+template class PairTable<IntersectionTestQuery>;
+template class PairTable<SeparationVectorQuery>;
+template class PairTable<ContainmentQuery>;
+template class PairTable<TimeOfImpactQuery>;
+
+Status World::update(PairTableBase& table, const PairTableInput& input, const Limits& limits) {
+    return catch_within(limits, [&] { table.state_->update(implementation_->view(), input); });
+}
+
+Status World::submit(PairTableBase& table, const PairTableInput& input, const Limits& limits) {
+    return catch_within(limits, [&] { table.state_->submit(implementation_->view(), input); });
+}
+
+Status World::record(PairTableBase& table, const Recording& recording, const PairTableInput& input,
+                     const Limits& limits) {
+    return catch_within(limits, [&] {
+        table.state_->record(implementation_->view(), input, read_versioned(recording));
+    });
+}
+
+bool World::is_recorded(const PairTableBase& table) const noexcept {
+    return table.state_->is_recorded(implementation_->view());
+}
+
+}  // namespace nearfield
