@@ -35,92 +35,85 @@ constexpr bool has_distance = requires(const typename Query::Result& result) {
     result.distance;
 };
 
-/// One list per row, all in one piece. Those that were never added are empty.
+/// Where the list of a row is, among those of all rows.
+struct Slice {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// The lists of all rows of a table. They stay where they are while rows come and go, until those
+/// of rows that are gone take more memory than the others.
 template <class Element>
 class RowLists {
 public:
-    void clear() {
-        elements_.clear();
-        ends_.clear();
-    }
-    void add(std::span<const Element> list) {
-        add_elements(list);
-        ends_.push_back(static_cast<std::uint32_t>(elements_.size()));
-    }
-    /// Those of consecutive rows.
-    void add(const RowLists& from, std::size_t first, std::size_t end) {
-        if (from.ends_.empty()) {
-            return;
-        }
-        const std::size_t begin = from.begin_of(first);
-        const std::size_t before = elements_.size();
-        add_elements(std::span(from.elements_).subspan(begin, from.begin_of(end) - begin));
-        for (std::size_t row = first; row < end; ++row) {
-            ends_.push_back(static_cast<std::uint32_t>(before + from.ends_[row] - begin));
-        }
-    }
-    [[nodiscard]] std::span<const Element> operator[](std::size_t row) const {
-        if (row >= ends_.size()) {
-            return {};
-        }
-        return std::span(elements_).subspan(begin_of(row), ends_[row] - begin_of(row));
-    }
-
-private:
-    [[nodiscard]] std::size_t begin_of(std::size_t row) const {
-        return row == 0 ? 0 : ends_[row - 1];
-    }
-    void add_elements(std::span<const Element> elements) {
-        if (elements_.size() + elements.size() > UINT32_MAX) {
+    void clear() { elements_.clear(); }
+    [[nodiscard]] Slice add(std::span<const Element> list) {
+        if (elements_.size() + list.size() > UINT32_MAX) {
             throw StatusException({StatusCode::too_large,
                                    "update: the table has more records than 32 bits can count"});
         }
-        elements_.insert(elements_.end(), elements.begin(), elements.end());
+        const Slice slice{static_cast<std::uint32_t>(elements_.size()),
+                          static_cast<std::uint32_t>(list.size())};
+        elements_.insert(elements_.end(), list.begin(), list.end());
+        return slice;
+    }
+    [[nodiscard]] std::span<const Element> operator[](const Slice& slice) const {
+        return std::span(elements_).subspan(slice.first, slice.count);
+    }
+    /// Drops the lists of rows that are gone, if they take much memory. `slices`: of the others.
+    void compact(std::span<Slice> slices) {
+        std::size_t used = 0;
+        for (const Slice& slice : slices) {
+            used += slice.count;
+        }
+        if (elements_.size() <= 2 * used) {
+            return;
+        }
+        before_.swap(elements_);
+        elements_.clear();
+        for (Slice& slice : slices) {
+            const auto list = std::span(before_).subspan(slice.first, slice.count);
+            slice.first = static_cast<std::uint32_t>(elements_.size());
+            elements_.insert(elements_.end(), list.begin(), list.end());
+        }
     }
 
+private:
     std::vector<Element> elements_;
-    std::vector<std::uint32_t> ends_;  // of each row's
+    std::vector<Element> before_;  // memory for compact()
 };
 
-/// The rows of a table.
+/// Rows, and where their lists are; of queries without lists there are no slices.
 template <class Query>
 struct Content {
     std::vector<PairRow<Query>> rows;
-    RowLists<typename Query::Result::Record> records;
-    RowLists<ContactCluster> manifolds;  // of contacts
+    std::vector<Slice> records;
+    std::vector<Slice> manifolds;  // of contacts
 
     void clear() {
         rows.clear();
         records.clear();
         manifolds.clear();
     }
-    /// Appends the answer for a pair.
-    void add(InstanceHandle a, InstanceHandle b, const typename Query::Result& result) {
-        PairRow<Query>& row = rows.emplace_back(row_of<Query>(a, b, result));
-        row.index = static_cast<std::uint32_t>(rows.size() - 1);
-        if constexpr (requires { result.samples; }) {
-            records.add(result.samples);
-        } else if constexpr (requires { result.records; }) {
-            records.add(result.records);
-        }
-        row.record_count = static_cast<std::uint32_t>(records[row.index].size());
-        if constexpr (requires { result.manifold; }) {
-            manifolds.add(result.manifold);
-        }
-    }
     /// Appends consecutive rows of another one.
     void add(const Content& from, std::size_t first, std::size_t end) {
-        if (first == end) {
-            return;
-        }
         const std::size_t before = rows.size();
-        rows.insert(rows.end(), from.rows.begin() + static_cast<std::ptrdiff_t>(first),
-                    from.rows.begin() + static_cast<std::ptrdiff_t>(end));
+        append(from.rows, first, end, rows);
         for (std::size_t i = before; i < rows.size(); ++i) {
             rows[i].index = static_cast<std::uint32_t>(i);
         }
-        records.add(from.records, first, end);
-        manifolds.add(from.manifolds, first, end);
+        append(from.records, first, end, records);
+        append(from.manifolds, first, end, manifolds);
+    }
+
+private:
+    template <class Element>
+    static void append(const std::vector<Element>& from, std::size_t first, std::size_t end,
+                       std::vector<Element>& to) {
+        if (!from.empty()) {
+            to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first),
+                      from.begin() + static_cast<std::ptrdiff_t>(end));
+        }
     }
 };
 
@@ -347,7 +340,8 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
         return;
     }
     const Stopwatch total;
-    timings = {};
+    timings.plan = timings.record = timings.device = 0.0;
+    timings.passes.clear();
     answer(call, world, input);
     is_submitted_ = true;
     timings.total = total.milliseconds();
@@ -504,7 +498,7 @@ struct PairTable<Query>::Rows final : State {
                 return records_;
             }
         }
-        return now_.records[row.index];
+        return records_of_rows_[now_.records[row.index]];
     }
     [[nodiscard]] std::span<const ContactCluster> manifold(const Row& row) {
         if (row.index >= size()) {
@@ -514,7 +508,7 @@ struct PairTable<Query>::Rows final : State {
             device->manifold(row.index, manifold_);
             return manifold_;
         }
-        return now_.manifolds[row.index];
+        return manifolds_of_rows_[now_.manifolds[row.index]];
     }
     /// Does what reads rows, unless there is no memory for it.
     template <class Read>
@@ -551,6 +545,8 @@ private:
         list_.clear();
         row_of_.clear();
         now_.clear();
+        records_of_rows_.clear();
+        manifolds_of_rows_.clear();
         world_.reset();
     }
 
@@ -628,6 +624,8 @@ private:
     void answer_list(const char* call, const WorldView& world, const Query& query,
                      const PairTableInput& input) {
         candidate_count = static_cast<std::uint32_t>(input.a.size());
+        records_of_rows_.clear();
+        manifolds_of_rows_.clear();
         answer_pairs(world, query, input.a.size(), [&](std::size_t i) {
             return table::Pair{world.instances.find(input.a[i], call),
                                world.instances.find(input.b[i], call)};
@@ -709,10 +707,27 @@ private:
             world.context.ring().run(batch_, results_);
             checkpoint();  // what was cut must not look whole
             for (std::size_t i = 0; i < pairs_of_batch_.size(); ++i) {
-                answered_.add(world.instances.handle(pairs_of_batch_[i].a),
-                              world.instances.handle(pairs_of_batch_[i].b),
-                              *std::get_if<typename Query::Result>(&results_.results[i]));
+                add_row(world.instances.handle(pairs_of_batch_[i].a),
+                        world.instances.handle(pairs_of_batch_[i].b),
+                        *std::get_if<typename Query::Result>(&results_.results[i]));
             }
+        }
+    }
+
+    void add_row(InstanceHandle a, InstanceHandle b, const typename Query::Result& result) {
+        Row& row = answered_.rows.emplace_back(row_of<Query>(a, b, result));
+        row.index = static_cast<std::uint32_t>(answered_.rows.size() - 1);
+        const auto add_records = [&](const std::vector<Record>& records) {
+            row.record_count = static_cast<std::uint32_t>(records.size());
+            answered_.records.push_back(records_of_rows_.add(records));
+        };
+        if constexpr (requires { result.samples; }) {
+            add_records(result.samples);
+        } else if constexpr (requires { result.records; }) {
+            add_records(result.records);
+        }
+        if constexpr (requires { result.manifold; }) {
+            answered_.manifolds.push_back(manifolds_of_rows_.add(result.manifold));
         }
     }
 
@@ -720,6 +735,9 @@ private:
     void merge_rows() {
         constexpr std::uint32_t none = world::PairList::none;
         const auto pairs = list_.pairs();
+        if (answered_.rows.empty() && pairs.size() == row_of_.size()) {
+            return;  // all are as they were
+        }
         before_.clear();
         row_of_before_.resize(pairs.size());
         std::size_t next_answered = 0;
@@ -749,6 +767,8 @@ private:
         }
         std::swap(now_, before_);
         row_of_.swap(row_of_before_);
+        records_of_rows_.compact(now_.records);
+        manifolds_of_rows_.compact(now_.manifolds);
     }
 
     static constexpr bool has_motions = std::is_same_v<Query, TimeOfImpactQuery>;
@@ -761,6 +781,8 @@ private:
     table::Content<Query> now_;       // or the rows of the device that were made exact
     table::Content<Query> answered_;  // by the last update
     table::Content<Query> before_;    // memory for the next update
+    table::RowLists<Record> records_of_rows_;
+    table::RowLists<ContactCluster> manifolds_of_rows_;
     std::optional<Jobs> jobs_;
     std::vector<table::Job> scratch_;  // by job
     Batch batch_;

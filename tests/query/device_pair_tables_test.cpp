@@ -204,7 +204,7 @@ TYPED_TEST(DevicePairTables, OfTheSmallestBesideTheLargestShapes) {
             this->add(holes, this->any_pose(random, size));
         }
     }
-    Tables<TypeParam> tables = this->tables_of(Kind<TypeParam>::far(1e7));
+    Tables<TypeParam> tables = this->tables_of(Kind<TypeParam>::far(1e9));
     this->compare(tables);
     EXPECT_GT(tables.device.size(), 10U);
 }
