@@ -140,21 +140,20 @@ static bool is_answered_in_place(const PenetrationQuery& query) {
     return query.points == PenetrationPoints::vertices && !query.records;
 }
 
-/// The answer for two instances whose shapes exist.
-static IntersectionTestResult answer(const IntersectionTestQuery& /*query*/,
-                                     const world::Instances& instances, const Pair& pair,
-                                     bool /*is_reverse*/, Job& job) {
-    IntersectionTestResult result;
-    result.error_bound = instances.rounding(pair.a) + instances.rounding(pair.b) +
-                         instances.deviation(pair.a) + instances.deviation(pair.b);
-    result.intersects = instances.intersect(pair.a, pair.b, job.overlap_test);
-    return result;
+/// The answer for two instances whose shapes exist. A result would take longer to make than most
+/// answers.
+static void answer(const IntersectionTestQuery& /*query*/, const world::Instances& instances,
+                   const Pair& pair, bool /*is_reverse*/, Job& job,
+                   PairRow<IntersectionTestQuery>& row) {
+    row.status = StatusCode::ok;
+    row.error_bound = instances.rounding(pair.a) + instances.rounding(pair.b) +
+                      instances.deviation(pair.a) + instances.deviation(pair.b);
+    row.intersects = instances.intersect(pair.a, pair.b, job.overlap_test);
 }
 
 /// Likewise. `is_reverse`: the pair before was the same the other way round.
-static const PenetrationResult& answer(const PenetrationQuery& query,
-                                       const world::Instances& instances, const Pair& pair,
-                                       bool is_reverse, Job& job) {
+static void answer(const PenetrationQuery& query, const world::Instances& instances,
+                   const Pair& pair, bool is_reverse, Job& job, PairRow<PenetrationQuery>& row) {
     PenetrationResult& result = job.result;
     result.intersects = false;
     result.count = 0;
@@ -174,22 +173,21 @@ static const PenetrationResult& answer(const PenetrationQuery& query,
                                 is_reverse ? &job.reverse : nullptr, result);
     }
     job.reverse.intersects = result.intersects;
-    return result;
+    row = row_of<PenetrationQuery>({}, {}, result);
 }
 
-/// The row of a pair that is answered in place.
+/// Writes the row of a pair that is answered in place.
 template <class Query>
-PairRow<Query> row_in_place(const world::Instances& instances, const Query& query, const Pair& pair,
-                            bool is_reverse, Job& job) {
-    PairRow<Query> row;
+void answer_pair(const Query& query, const world::Instances& instances, const Pair& pair,
+                 bool is_reverse, Job& job, PairRow<Query>& row) {
     if (instances.is_placed(pair.a) && instances.is_placed(pair.b)) {
-        row = row_of<Query>({}, {}, answer(query, instances, pair, is_reverse, job));
+        answer(query, instances, pair, is_reverse, job, row);
     } else {
+        row = {};
         row.status = StatusCode::unknown_shape;
     }
     row.a = instances.handle(pair.a);
     row.b = instances.handle(pair.b);
-    return row;
 }
 
 /// The technique that the caller asks for, of the table or else of the query.
@@ -674,8 +672,8 @@ private:
                               checkpoint();
                               const table::Pair pair = pair_of(i);
                               const bool is_reverse = pair.a == before.b && pair.b == before.a;
-                              answered_.rows[i] =
-                                  table::row_in_place(instances, query, pair, is_reverse, job);
+                              table::answer_pair(query, instances, pair, is_reverse, job,
+                                                 answered_.rows[i]);
                               answered_.rows[i].index = static_cast<std::uint32_t>(i);
                               before = pair;
                           }
