@@ -7,9 +7,11 @@
 
 namespace nearfield::world {
 
-void NearestQueries::begin(const Instances& instances, const NearestQuery& query) {
+void NearestQueries::begin(const Instances& instances, const NearestQuery& query,
+                           const WorldFilter& filter) {
     instances_ = &instances;
     query_ = query;
+    filter_ = filter;
     guess_ = BoxHierarchy::nowhere;
 }
 
@@ -71,7 +73,7 @@ void NearestQueries::find(const Vector2& point, std::span<NearestHit> hits) {
     instances_->boxes().for_near(
         {point_, point_}, [this] { return nearest_.squared_reach(instances_->max_rounding()); },
         [&](std::uint32_t index, double) {
-            if (index != guess && instances_->passes(index, query_.filter)) {
+            if (index != guess && instances_->passes(index, filter_)) {
                 find_in(index);
             }
         });

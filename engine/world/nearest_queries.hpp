@@ -14,7 +14,7 @@ namespace nearfield::world {
 class NearestQueries {
 public:
     /// The instances have to be prepared.
-    void begin(const Instances& instances, const NearestQuery& query);
+    void begin(const Instances& instances, const NearestQuery& query, const WorldFilter& filter);
 
     /// Fills `hits`, of which there are as many as the query wants.
     void find(const Vector2& point, std::span<NearestHit> hits);
@@ -30,6 +30,7 @@ private:
 
     const Instances* instances_ = nullptr;
     NearestQuery query_;
+    WorldFilter filter_;
     geometry::Vector point_ = geometry::Vector::Zero();
     NearestList<Found> nearest_;
     std::uint32_t guess_ = UINT32_MAX;  // the nearest instance of the point before

@@ -368,6 +368,7 @@ public:
 private:
     friend struct ContextAccess;  // of diagnostics.hpp
     friend class World;           // of world.hpp
+    friend class WorldRequest;    // of world_request.hpp
     explicit Context(std::unique_ptr<Implementation> implementation) noexcept;
     std::unique_ptr<Implementation> implementation_;
 };

@@ -24,6 +24,6 @@
 #include <nearfield/tile.hpp>
 #include <nearfield/version.hpp>
 #include <nearfield/world.hpp>
-#include <nearfield/world_device_queries.hpp>
 #include <nearfield/world_pairs.hpp>
 #include <nearfield/world_queries.hpp>
+#include <nearfield/world_request.hpp>

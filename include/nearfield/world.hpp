@@ -12,23 +12,20 @@
 #include <span>
 
 /// \file
-/// A world: instances of shapes that stay from frame to frame, and queries that name the world
+/// A world: instances of shapes that stay from frame to frame, and questions that name the world
 /// instead of two shapes. Input and output are spans of flat structures, one entry per pose, point
-/// or segment, in the caller's memory.
+/// or segment, in the caller's memory; the last argument says which instances are considered, what
+/// limits the call, and who answers (WorldOptions).
 ///
-/// Queries of a world are answered on the CPU, except for tables of pairs that the device fills
-/// (world_pairs.hpp) and many rays, points or poses that it is asked about
-/// (world_device_queries.hpp), exact up to the rounding that each answer's error bound states. What
-/// a world keeps between queries makes them faster and never changes an answer: after any sequence
-/// of calls, each answer is the same, bit for bit, as in a new world to which the present instances
-/// were added in the order of their adding.
+/// Answers are exact up to the rounding that each one's error bound states, whoever gives them.
+/// What a world keeps between calls makes them faster and never changes an answer: after any
+/// sequence of calls, each answer is the same, bit for bit, as in a new world to which the present
+/// instances were added in the order of their adding.
 
 namespace nearfield {
 
 class PairTableBase;
-class DeviceRays;
-class DeviceNearest;
-class DevicePoseTests;
+class WorldRequest;
 
 /// Instances of shapes of one context, kept from frame to frame.
 ///
@@ -47,9 +44,20 @@ class DevicePoseTests;
 /// query or pose are invalid_query, and the message names the first; handles of shapes are
 /// unknown_shape, handles of instances unknown_instance.
 ///
-/// Limits: every query can be given Limits (limits.hpp). If they end it, the call fails (cancelled
-/// or budget_exhausted), so that no output looks whole that is not. The time that a world takes to
+/// Limits: every call can be given Limits (limits.hpp). If they end it, it fails (cancelled or
+/// budget_exhausted), so that no output looks whole that is not. The time that a world takes to
 /// make and refit boxes counts; it is not divided by checkpoints.
+///
+/// Techniques: what the CPU alone answers refuses Technique::compute (unsupported_technique). Where
+/// the device is asked, a call also fails with unsupported_technique if the context has no
+/// pipelines of Technique::compute, with too_large if there are more instances or inputs than it
+/// takes (WorldOptions::technique), and as Context::run().
+///
+///     nearfield::World world = *nearfield::World::create(context);
+///     const auto crate = world.add({.shape = box, .pose = start});
+///     nearfield::Status status = world.move(*crate, next);
+///     std::vector<nearfield::RayHit> hits(segments.size());
+///     status = world.cast_rays(segments, hits);
 class NEARFIELD_EXPORT World {
 public:
     /// An empty world.
@@ -80,106 +88,136 @@ public:
     /// The number of instances.
     [[nodiscard]] std::uint32_t size() const noexcept;
 
-    /// For each pose, 1 if the shape there and an instance of the world share a point, otherwise 0.
-    /// Exact up to the rounding of transformed vertices, as IntersectionTestQuery. Memory does not
-    /// depend on the number of poses. Fails (invalid_query) if the spans differ in length.
-    Status test_poses(const PoseTestQuery& query, std::span<const Pose> poses,
-                      std::span<std::uint8_t> intersects, const Limits& limits = {});
-
-    /// The same by the device (world_device_queries.hpp), and waits for it. Also fails with
-    /// unsupported_technique if the context has no pipelines of Technique::compute, with too_large
-    /// if there are more instances or poses than DeviceQueryBase allows, with not_ready if `tests`
-    /// was submitted and not collected, and as Context::run().
-    Status test_poses(DevicePoseTests& tests, const PoseTestQuery& query,
-                      std::span<const Pose> poses, std::span<std::uint8_t> intersects,
-                      const Limits& limits = {});
-    /// Does the first half of it: uploads the poses, and what has changed of the instances, and
-    /// lets the device begin. The second half is DevicePoseTests::collect(). Poses, instances and
-    /// shapes may change meanwhile: answers are those of the world as it was. Otherwise likewise.
-    Status submit(DevicePoseTests& tests, const PoseTestQuery& query, std::span<const Pose> poses,
-                  const Limits& limits = {});
-
-    /// For each pose, the least distance of the shape there from the world. Neighbouring poses in
-    /// sequence are faster than poses in random order. Otherwise as test_poses().
-    Status find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
-                           std::span<Clearance> clearances, const Limits& limits = {});
+    /// For each segment, the first hit. Of several at the same place, the one of the instance added
+    /// first, at its edge of lowest index. Fails (invalid_query) if the spans differ in length.
+    ///
+    ///     std::vector<nearfield::RayHit> hits(segments.size());
+    ///     const nearfield::WorldOptions options{.technique = nearfield::Technique::automatic};
+    ///     const auto status = world.cast_rays(segments, hits, options);
+    Status cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
+                     const WorldOptions& options = {});
+    /// For each segment, all hits. A vertex where the segment passes from one edge to the next is
+    /// one hit of each. An edge along the segment is hit where they first meet. Edges without
+    /// length, between repeated vertices, are never hit. The CPU answers.
+    ///
+    ///     nearfield::RayHits all;
+    ///     const auto status = world.cast_rays(segments, all);
+    ///     for (std::uint32_t i = all.offsets[0]; i < all.offsets[1]; ++i) { use(all.hits[i]); }
+    Status cast_rays(std::span<const Segment> segments, RayHits& hits,
+                     const WorldOptions& options = {});
 
     /// For each point, the nearest instances or edges in ascending order of NearestHit::distance:
     /// the instances that the point is inside come first, the deepest at the head. Of equally near
     /// ones, the instance added first, then the edge of lower index comes first. Point i gets
     /// hits[i * count] to hits[i * count + count - 1]. Fails (invalid_query) if there are not
-    /// `count` times as many hits as points.
+    /// `count` times as many hits as points, and with Technique::compute if `count` is not 1.
+    ///
+    ///     std::vector<nearfield::NearestHit> hits(3 * points.size());
+    ///     const auto status = world.find_nearest({.count = 3, .max_distance = 2.0}, points, hits);
     Status find_nearest(const NearestQuery& query, std::span<const Vector2> points,
-                        std::span<NearestHit> hits, const Limits& limits = {});
-
-    /// The same by the device (world_device_queries.hpp), of which `count` is 1, and waits for it.
-    /// Also fails with invalid_query if it is not, with unsupported_technique if the context has no
-    /// pipelines of Technique::compute, with too_large if there are more instances or points than
-    /// DeviceQueryBase allows, with not_ready if `nearest` was submitted and not collected, and as
-    /// Context::run().
-    Status find_nearest(DeviceNearest& nearest, const NearestQuery& query,
-                        std::span<const Vector2> points, std::span<NearestHit> hits,
-                        const Limits& limits = {});
-    /// Does the first half of it: uploads the points, and what has changed of the instances, and
-    /// lets the device begin. The second half is DeviceNearest::collect(). Points, instances and
-    /// shapes may change meanwhile: hits are those of the world as it was. Otherwise likewise.
-    Status submit(DeviceNearest& nearest, const NearestQuery& query,
-                  std::span<const Vector2> points, const Limits& limits = {});
-
+                        std::span<NearestHit> hits, const WorldOptions& options = {});
     /// For each pose, the nearest instances of the shape there in ascending order of
     /// Clearance::distance, each with its own clearance, as if it were alone in the world: those
     /// that the shape intersects come first, the deepest at the head. Of equally near ones, the
     /// instance added first comes first. Pose i gets nearest[i * count] to
     /// nearest[i * count + count - 1]; where there are fewer, the rest name no instance and have an
     /// infinite distance. Fails (invalid_query) if there are not `count` times as many entries as
-    /// poses.
+    /// poses. The CPU answers.
+    ///
+    ///     std::vector<nearfield::Clearance> nearest(2 * poses.size());
+    ///     const auto status = world.find_nearest({.shape = robot, .count = 2}, poses, nearest);
     Status find_nearest(const ShapeNearestQuery& query, std::span<const Pose> poses,
-                        std::span<Clearance> nearest, const Limits& limits = {});
-
+                        std::span<Clearance> nearest, const WorldOptions& options = {});
     /// For each pose, the nearest edges of all instances in ascending order of
     /// ShapeEdgeHit::distance. Of equally near ones, the instance added first, then the edge of
-    /// lower index comes first. Otherwise as for instances.
+    /// lower index comes first. Pose i gets hits[i * count] to hits[i * count + count - 1], of
+    /// which those that were not found name no instance. Fails (invalid_query) if there are not
+    /// `count` times as many hits as poses. The CPU answers.
+    ///
+    ///     std::vector<nearfield::ShapeEdgeHit> edges(8 * poses.size());
+    ///     const auto status = world.find_nearest({.shape = robot, .count = 8}, poses, edges);
     Status find_nearest(const ShapeEdgeQuery& query, std::span<const Pose> poses,
-                        std::span<ShapeEdgeHit> hits, const Limits& limits = {});
+                        std::span<ShapeEdgeHit> hits, const WorldOptions& options = {});
 
-    /// For each segment, the first hit. Of several at the same place, the one of the instance added
-    /// first, at its edge of lowest index. Fails (invalid_query) if the spans differ in length.
-    Status cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
-                     const WorldFilter& filter = {}, const Limits& limits = {});
-    /// For each segment, all hits. A vertex where the segment passes from one edge to the next is
-    /// one hit of each. An edge along the segment is hit where they first meet. Edges without
-    /// length, between repeated vertices, are never hit.
-    Status cast_rays(std::span<const Segment> segments, RayHits& hits,
-                     const WorldFilter& filter = {}, const Limits& limits = {});
-
-    /// The same by the device (world_device_queries.hpp), and waits for it. Also fails with
-    /// unsupported_technique if the context has no pipelines of Technique::compute, with too_large
-    /// if there are more instances or segments than DeviceQueryBase allows, with not_ready if
-    /// `rays` was submitted and not collected, and as Context::run().
-    Status cast_rays(DeviceRays& rays, std::span<const Segment> segments, std::span<RayHit> hits,
-                     const WorldFilter& filter = {}, const Limits& limits = {});
-    /// Does the first half of it: uploads the segments, and what has changed of the instances, and
-    /// lets the device begin. The second half is DeviceRays::collect(). Segments, instances and
-    /// shapes may change meanwhile: hits are those of the world as it was. Otherwise likewise.
-    Status submit(DeviceRays& rays, std::span<const Segment> segments,
-                  const WorldFilter& filter = {}, const Limits& limits = {});
+    /// For each pose, 1 if the shape there and an instance of the world share a point, otherwise 0.
+    /// Exact up to the rounding of transformed vertices, as IntersectionTestQuery. Memory does not
+    /// depend on the number of poses, unless the device answers. Fails (invalid_query) if the spans
+    /// differ in length.
+    ///
+    ///     std::vector<std::uint8_t> blocked(poses.size());
+    ///     const nearfield::WorldOptions options{.filter = {.ignored = handle_of_robot}};
+    ///     const auto status = world.test_poses(robot, poses, blocked, options);
+    Status test_poses(ShapeHandle shape, std::span<const Pose> poses,
+                      std::span<std::uint8_t> intersects, const WorldOptions& options = {});
+    /// For each pose, the least distance of the shape there from the world. Neighbouring poses in
+    /// sequence are faster than poses in random order. Exact up to the rounding of transformed
+    /// vertices. Memory does not depend on the number of poses. Fails (invalid_query) if the spans
+    /// differ in length. The CPU answers.
+    ///
+    ///     std::vector<nearfield::Clearance> clearances(poses.size());
+    ///     const nearfield::ClearanceQuery query{.shape = robot, .max_clearance = 2.0};
+    ///     const auto status = world.find_clearances(query, poses, clearances);
+    Status find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
+                           std::span<Clearance> clearances, const WorldOptions& options = {});
 
     /// For each motion of a shape, when it first touches the world. Fails (invalid_query) if the
     /// spans differ in length, or if the tolerance is too small for the coordinates of what a
-    /// motion comes near; and as Context::run(), with ring_full if all batches are in flight.
+    /// motion comes near; and as Context::run(), with ring_full if all batches are in flight. The
+    /// CPU answers.
+    ///
+    ///     std::vector<nearfield::ShapeCastHit> hits(sweeps.size());
+    ///     const auto status = world.cast_shape({.shape = robot, .tolerance = 1e-3}, sweeps, hits);
     Status cast_shape(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
-                      std::span<ShapeCastHit> hits, const Limits& limits = {});
+                      std::span<ShapeCastHit> hits, const WorldOptions& options = {});
 
     /// For each rectangle, the instances with which it shares a point, exact up to the rounding of
-    /// transformed vertices.
+    /// transformed vertices. The CPU answers.
+    ///
+    ///     nearfield::InstanceLists lists;
+    ///     const auto status = world.find_overlaps(std::span(&window, 1), lists);
+    ///     for (const auto& handle : lists.instances) { draw(handle); }
     Status find_overlaps(std::span<const Rectangle> rectangles, InstanceLists& lists,
-                         const WorldFilter& filter = {}, const Limits& limits = {});
-    /// For each point, the instances that it lies in, or up to rounding on the boundary of.
+                         const WorldOptions& options = {});
+    /// For each point, the instances that it lies in, or up to rounding on the boundary of. The CPU
+    /// answers.
+    ///
+    ///     nearfield::InstanceLists under;
+    ///     const auto status = world.find_overlaps(std::span(&cursor, 1), under);
     Status find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
-                         const WorldFilter& filter = {}, const Limits& limits = {});
-    /// For each pose, the instances with which the shape there shares a point; likewise.
-    Status find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
-                         InstanceLists& lists, const Limits& limits = {});
+                         const WorldOptions& options = {});
+    /// For each pose, the instances with which the shape there shares a point, exact up to the
+    /// rounding of transformed vertices. The CPU answers.
+    ///
+    ///     nearfield::InstanceLists touched;
+    ///     const auto status = world.find_overlaps(robot, poses, touched);
+    Status find_overlaps(ShapeHandle shape, std::span<const Pose> poses, InstanceLists& lists,
+                         const WorldOptions& options = {});
+
+    /// Does the first half of cast_rays() with first hits, of which WorldRequest::collect() is the
+    /// second: uploads the segments, and what has changed of the instances, and lets the device
+    /// begin, or, with Technique::cpu, answers and keeps the hits. Nothing is borrowed when this
+    /// returns. Fails as cast_rays(), and with not_ready if something was submitted by `request`
+    /// and not collected. After any other error nothing is submitted.
+    ///
+    ///     nearfield::WorldRequest rays;  // kept from frame to frame
+    ///     const nearfield::WorldOptions options{.technique = nearfield::Technique::compute};
+    ///     auto status = world.submit(rays, segments, options);
+    ///     step_the_rest();
+    ///     status = status.ok() ? rays.collect(hits) : status;
+    Status submit(WorldRequest& request, std::span<const Segment> segments,
+                  const WorldOptions& options = {});
+    /// Does the first half of find_nearest() for points, as for segments.
+    ///
+    ///     auto status = world.submit(request, {.max_distance = 2.0}, points);
+    ///     status = status.ok() ? request.collect(near) : status;
+    Status submit(WorldRequest& request, const NearestQuery& query, std::span<const Vector2> points,
+                  const WorldOptions& options = {});
+    /// Does the first half of test_poses(), as for segments.
+    ///
+    ///     auto status = world.submit(request, robot, poses);
+    ///     status = status.ok() ? request.collect(blocked) : status;
+    Status submit(WorldRequest& request, ShapeHandle shape, std::span<const Pose> poses,
+                  const WorldOptions& options = {});
 
     /// Brings a table of pairs (world_pairs.hpp) up to date: submit() and PairTable::collect() in
     /// one. `input`: what the table is told besides. Fails with invalid_query if query, options or
@@ -215,9 +253,10 @@ public:
     void trim() noexcept;
 
 private:
-    class NEARFIELD_HIDDEN Implementation;
-    explicit World(std::unique_ptr<Implementation> implementation) noexcept;
-    std::unique_ptr<Implementation> implementation_;
+    friend class WorldRequest;
+    struct NEARFIELD_HIDDEN State;
+    explicit World(std::unique_ptr<State> state) noexcept;
+    std::unique_ptr<State> state_;
 };
 
 }  // namespace nearfield

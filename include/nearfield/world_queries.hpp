@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nearfield/limits.hpp>
+#include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 
@@ -47,16 +49,29 @@ struct WorldFilter {
     InstanceHandle ignored = {};
 };
 
-/// One shape at many poses: World::test_poses().
-struct PoseTestQuery {
-    ShapeHandle shape = {};   ///< of the world's context
-    WorldFilter filter = {};  ///< the instances tested
+/// The last argument of what a world is asked about many inputs.
+struct WorldOptions {
+    WorldFilter filter = {};  ///< the instances considered
+    Limits limits = {};       ///< of this call
+    /// Who answers. The answers are the same, bit for bit.
+    /// - Technique::cpu answers everything.
+    /// - Technique::compute answers World::cast_rays() with first hits, World::find_nearest() of
+    ///   points with a NearestQuery::count of 1, and World::test_poses(). The device walks over
+    ///   boxes in single precision and names the edges that the answer may be about; the CPU
+    ///   computes the answer from these in double precision, and answers by itself where single
+    ///   precision cannot tell. It takes at most 2^18 instances, and as many inputs as
+    ///   Settings::memory_limit allows and as a buffer of the device has room for: at least 4
+    ///   million, where an answer takes 32 bytes. Where the device is another one than the
+    ///   processor, it is faster from about a thousand inputs on.
+    /// - Technique::automatic is Technique::compute for thousands of inputs that a hardware device
+    ///   can answer, otherwise Technique::cpu.
+    /// - Technique::raster answers nothing of a world (unsupported_technique).
+    Technique technique = Technique::cpu;
 };
 
 /// One shape at many poses: World::find_clearances().
 struct ClearanceQuery {
-    ShapeHandle shape = {};   ///< of the world's context
-    WorldFilter filter = {};  ///< the instances considered
+    ShapeHandle shape = {};  ///< of the world's context
     /// Clearances of at most this are not told apart, which saves time: the answer is this value,
     /// and no instance. World units.
     double min_clearance = -std::numeric_limits<double>::infinity();
@@ -78,7 +93,7 @@ struct Clearance {
     /// limits of the query.
     InstanceHandle instance = {};
     Vector2 point = {};    ///< of the shape, where it is nearest or deepest; needs `direction`
-    Vector2 nearest = {};  ///< of the instance; likewise
+    Vector2 nearest = {};  ///< of the instance, where it is nearest or deepest; needs `direction`
     /// Unit vector. Positive distance: from `point` to `nearest`. Negative: the direction in which
     /// the shape leaves the instance at the deepest vertex. (0, 0) at distance 0 and without an
     /// instance.
@@ -97,7 +112,6 @@ struct NearestQuery {
     NearestKind kind = NearestKind::instances;  ///< what is searched for
     /// Boundaries farther away than this are not considered. World units, >= 0.
     double max_distance = std::numeric_limits<double>::infinity();
-    WorldFilter filter = {};  ///< the instances considered
 };
 
 /// One of the nearest instances, or edges, of a point.
@@ -114,7 +128,6 @@ struct NearestHit {
 /// The nearest instances of one shape at many poses: World::find_nearest().
 struct ShapeNearestQuery {
     ShapeHandle shape = {};   ///< of the world's context
-    WorldFilter filter = {};  ///< the instances considered
     std::uint32_t count = 1;  ///< the number wanted per pose, >= 1
     /// Instances farther away than this are not considered. World units, >= 0.
     double max_distance = std::numeric_limits<double>::infinity();
@@ -123,7 +136,6 @@ struct ShapeNearestQuery {
 /// The nearest edges of one shape at many poses: World::find_nearest().
 struct ShapeEdgeQuery {
     ShapeHandle shape = {};   ///< of the world's context
-    WorldFilter filter = {};  ///< the instances considered
     std::uint32_t count = 1;  ///< the number wanted per pose, >= 1
     /// Edges farther away than this are not considered. World units, >= 0.
     double max_distance = std::numeric_limits<double>::infinity();
@@ -182,7 +194,6 @@ struct Sweep {
 /// A moving shape against a world that does not move: World::cast_shape().
 struct ShapeCastQuery {
     ShapeHandle shape = {};         ///< of the world's context
-    WorldFilter filter = {};        ///< the instances considered
     double tolerance = 0.0;         ///< as TimeOfImpactQuery::tolerance
     double contact_distance = 0.0;  ///< as TimeOfImpactQuery::contact_distance
 };

@@ -26,15 +26,15 @@ using nearfield::bench::take;
 using nearfield::bench::wall_milliseconds;
 
 using nearfield::Context;
-using nearfield::DeviceNearest;
-using nearfield::DeviceRays;
 using nearfield::NearestHit;
 using nearfield::NearestQuery;
 using nearfield::Pose;
 using nearfield::RayHit;
 using nearfield::Segment;
+using nearfield::Status;
 using nearfield::Vector2;
 using nearfield::World;
+using nearfield::WorldRequest;
 
 std::vector<Vector2> points_of(Crowd& crowd, std::size_t count) {
     std::vector<Vector2> points;
@@ -74,16 +74,20 @@ double measure(Crowd& crowd, bool moves, int frames, const Call& call) {
 
 bool shows_passes = false;
 
-/// `device` and `cpu` answer the same questions.
-template <class Device, class OnDevice, class OnCpu>
-void compare(Crowd& crowd, const char* kind, std::size_t count, bool moves, const Device& device,
-             const OnDevice& on_device, const OnCpu& on_cpu) {
+/// The device and the CPU answer the same questions: `submit(request)` has the device begin, and
+/// `ask()` asks the CPU.
+template <class Answer, class Submit, class Ask>
+void compare(Crowd& crowd, const char* kind, std::size_t count, bool moves, WorldRequest& request,
+             std::vector<Answer>& answers, const Submit& submit, const Ask& ask) {
     const int frames = count > 100'000 ? 5 : 25;
-    const double whole = measure(crowd, moves, frames, on_device);
-    const nearfield::Timings timings = device.timings();
-    const double cpu = measure(crowd, moves, frames, on_cpu);
+    const double whole = measure(crowd, moves, frames, [&] {
+        const Status status = submit(request);
+        return status.ok() ? request.collect(answers) : status;
+    });
+    const nearfield::Timings& timings = request.timings();
+    const double cpu = measure(crowd, moves, frames, ask);
     std::printf("| %u | %s | %s | %zu | %u | %.3f | %.3f | %.3f | %.3f | %.3f | %.2f |\n",
-                crowd.world().size(), moves ? "move" : "stand", kind, count, device.left_to_cpu(),
+                crowd.world().size(), moves ? "move" : "stand", kind, count, request.left_to_cpu(),
                 timings.plan + timings.record, timings.device, timings.decode, whole, cpu,
                 whole / cpu);
     std::fflush(stdout);
@@ -99,17 +103,18 @@ void compare_all(Context& context, std::uint32_t instances, double side) {
     World& world = crowd.world();
     const nearfield::ShapeHandle robot = take(context.add_shape(nearfield::test::scaled_and_moved(
         nearfield::test::star(crowd.random(), 20, 0.5), 0.3, {})));
-    DeviceRays rays;
-    DeviceNearest nearest;
-    nearfield::DevicePoseTests tests;
+    const nearfield::WorldOptions by_device{.technique = nearfield::Technique::compute};
+    WorldRequest rays;
+    WorldRequest nearest;
+    WorldRequest tests;
     for (const std::size_t count : {1'000U, 30'000U, 1'000'000U}) {
         for (const bool moves : {false, true}) {
             std::vector<RayHit> hits(count);
             for (const double length : {3.0, 30.0}) {
                 const std::vector<Segment> segments = segments_of(crowd, count, length);
                 compare(
-                    crowd, length < 10.0 ? "rays of 3" : "rays of 30", count, moves, rays,
-                    [&] { return world.cast_rays(rays, segments, hits); },
+                    crowd, length < 10.0 ? "rays of 3" : "rays of 30", count, moves, rays, hits,
+                    [&](WorldRequest& by) { return world.submit(by, segments, by_device); },
                     [&] { return world.cast_rays(segments, hits); });
             }
             const std::vector<Vector2> points = points_of(crowd, count);
@@ -119,16 +124,16 @@ void compare_all(Context& context, std::uint32_t instances, double side) {
                 poses.push_back({point, 17.0 * point.x});
             }
             std::vector<std::uint8_t> meets(count);
-            const nearfield::PoseTestQuery test{.shape = robot};
             compare(
-                crowd, "poses", count, moves, tests,
-                [&] { return world.test_poses(tests, test, poses, meets); },
-                [&] { return world.test_poses(test, poses, meets); });
+                crowd, "poses", count, moves, tests, meets,
+                [&](WorldRequest& by) { return world.submit(by, robot, poses, by_device); },
+                [&] { return world.test_poses(robot, poses, meets); });
             for (const double reach : {0.25, 1e30}) {
                 const NearestQuery query{.max_distance = reach};
                 compare(
                     crowd, reach < 1.0 ? "nearest within 0.25" : "nearest", count, moves, nearest,
-                    [&] { return world.find_nearest(nearest, query, points, found); },
+                    found,
+                    [&](WorldRequest& by) { return world.submit(by, query, points, by_device); },
                     [&] { return world.find_nearest(query, points, found); });
             }
         }

@@ -1,4 +1,4 @@
-#include <nearfield/world_device_queries.hpp>
+#include <nearfield/world_request.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/driver/device_world.hpp>
@@ -11,16 +11,15 @@ namespace {
 /// Rays, points and poses that the device is asked about.
 class QueriesOfDevice : public DeviceWorld {
 public:
-    [[nodiscard]] Status submit() override { return world().submit(rays_, segments_); }
+    [[nodiscard]] Status submit() override { return world().submit(rays_, segments_, by_device_); }
     [[nodiscard]] Status ask() override {
-        Status status = world().cast_rays(rays_, segments_, hits_);
+        Status status = world().cast_rays(segments_, hits_, by_device_);
         if (!status.ok()) {
             return status;
         }
-        status = world().submit(nearest_, {}, points_);
+        status = world().submit(nearest_, {}, points_, by_device_);
         status = status.ok() ? nearest_.collect(near_) : status;
-        return status.ok() ? world().test_poses(tests_, {.shape = shape()}, poses_, meets_)
-                           : status;
+        return status.ok() ? world().test_poses(shape(), poses_, meets_, by_device_) : status;
     }
 
 private:
@@ -31,7 +30,7 @@ private:
     void forget() override {
         rays_ = {};
         nearest_ = {};
-        tests_ = {};
+        world().trim();
     }
     void resize(std::size_t count) {
         segments_.resize(count, {{0.0, 0.0}, {1.0, 1.0}});
@@ -42,9 +41,9 @@ private:
         meets_.resize(count);
     }
 
-    DeviceRays rays_;
-    DeviceNearest nearest_;
-    DevicePoseTests tests_;
+    const WorldOptions by_device_{.technique = Technique::compute};
+    WorldRequest rays_;
+    WorldRequest nearest_;
     std::vector<Segment> segments_{10, {{-2.0, 0.0}, {2.0, 0.1}}};
     std::vector<RayHit> hits_{10};
     std::vector<Vector2> points_{10, {0.2, 0.1}};

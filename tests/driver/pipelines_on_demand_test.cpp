@@ -76,26 +76,24 @@ protected:
                 [this, a] {
                     World world = *World::create(*context_);
                     static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
-                    DeviceRays rays;
                     const std::vector<Segment> segments(1);
                     std::vector<RayHit> hits(1);
-                    return world.cast_rays(rays, segments, hits);
+                    return world.cast_rays(segments, hits, {.technique = Technique::compute});
                 },
                 [this, a] {
                     World world = *World::create(*context_);
                     static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
-                    DeviceNearest nearest;
                     const std::vector<Vector2> points(1);
                     std::vector<NearestHit> hits(1);
-                    return world.find_nearest(nearest, {}, points, hits);
+                    return world.find_nearest({}, points, hits, {.technique = Technique::compute});
                 },
                 [this, a] {
                     World world = *World::create(*context_);
                     static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
-                    DevicePoseTests tests;
                     const std::vector<Pose> poses(1);
                     std::vector<std::uint8_t> meets(1);
-                    return world.test_poses(tests, {.shape = a.shape}, poses, meets);
+                    return world.test_poses(a.shape, poses, meets,
+                                            {.technique = Technique::compute});
                 }};
     }
 

@@ -46,7 +46,7 @@ public:
 
     Status test_poses(const Limits& limits, Numbers& numbers) {
         std::vector<std::uint8_t> hits(poses_.size());
-        Status status = world_.test_poses({shape_, {}}, poses_, hits, limits);
+        Status status = world_.test_poses(shape_, poses_, hits, {.limits = limits});
         numbers.assign(hits.begin(), hits.end());
         return status;
     }
@@ -69,7 +69,7 @@ public:
         std::vector<Clearance> clearances(poses_.size());
         ClearanceQuery query;
         query.shape = shape_;
-        Status status = world_.find_clearances(query, poses_, clearances, limits);
+        Status status = world_.find_clearances(query, poses_, clearances, {.limits = limits});
         for (const Clearance& clearance : clearances) {
             numbers.insert(numbers.end(), {clearance.distance, clearance.error_bound});
             append(numbers, clearance.point);
@@ -81,7 +81,7 @@ public:
         std::vector<NearestHit> hits(3 * points_.size());
         NearestQuery query;
         query.count = 3;
-        Status status = world_.find_nearest(query, points_, hits, limits);
+        Status status = world_.find_nearest(query, points_, hits, {.limits = limits});
         for (const NearestHit& hit : hits) {
             numbers.push_back(hit.distance);
             append(numbers, hit.nearest);
@@ -92,7 +92,7 @@ public:
         std::vector<Clearance> nearest(3 * poses_.size());
         ShapeNearestQuery query{shape_};
         query.count = 3;
-        Status status = world_.find_nearest(query, poses_, nearest, limits);
+        Status status = world_.find_nearest(query, poses_, nearest, {.limits = limits});
         for (const Clearance& clearance : nearest) {
             numbers.push_back(clearance.distance);
             append(numbers, clearance.nearest);
@@ -103,7 +103,7 @@ public:
         std::vector<ShapeEdgeHit> hits(3 * poses_.size());
         ShapeEdgeQuery query{shape_};
         query.count = 3;
-        Status status = world_.find_nearest(query, poses_, hits, limits);
+        Status status = world_.find_nearest(query, poses_, hits, {.limits = limits});
         for (const ShapeEdgeHit& hit : hits) {
             numbers.push_back(hit.distance);
             append(numbers, hit.nearest);
@@ -112,7 +112,7 @@ public:
     }
     Status cast_rays(const Limits& limits, Numbers& numbers) {
         std::vector<RayHit> hits(segments_.size());
-        Status status = world_.cast_rays(segments_, hits, {}, limits);
+        Status status = world_.cast_rays(segments_, hits, {.limits = limits});
         for (const RayHit& hit : hits) {
             numbers.push_back(hit.parameter);
         }
@@ -120,7 +120,7 @@ public:
     }
     Status cast_all_rays(const Limits& limits, Numbers& numbers) {
         RayHits hits;
-        Status status = world_.cast_rays(segments_, hits, {}, limits);
+        Status status = world_.cast_rays(segments_, hits, {.limits = limits});
         for (const RayHit& hit : hits.hits) {
             numbers.push_back(hit.parameter);
         }
@@ -128,7 +128,7 @@ public:
     }
     Status cast_shape(const Limits& limits, Numbers& numbers) {
         std::vector<ShapeCastHit> hits(sweeps_.size());
-        Status status = world_.cast_shape({shape_, {}, 1e-4, 0.0}, sweeps_, hits, limits);
+        Status status = world_.cast_shape({shape_, 1e-4, 0.0}, sweeps_, hits, {.limits = limits});
         for (const ShapeCastHit& hit : hits) {
             numbers.insert(numbers.end(), {hit.time, hit.time_error_bound});
         }
@@ -137,12 +137,12 @@ public:
     template <class Input>
     Status find_overlaps(const Input& input, const Limits& limits, Numbers& numbers) {
         InstanceLists lists;
-        Status status = world_.find_overlaps(input, lists, {}, limits);
+        Status status = world_.find_overlaps(input, lists, {.limits = limits});
         return add(lists, std::move(status), numbers);
     }
     Status find_shape_overlaps(const Limits& limits, Numbers& numbers) {
         InstanceLists lists;
-        Status status = world_.find_overlaps({shape_, {}}, poses_, lists, limits);
+        Status status = world_.find_overlaps(shape_, poses_, lists, {.limits = limits});
         return add(lists, std::move(status), numbers);
     }
     template <class Table>

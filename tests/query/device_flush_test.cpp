@@ -1,5 +1,6 @@
 #include <tests/query/device_pairs.hpp>
 #include <tests/support/flush_tiles.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <cstdint>
 #include <utility>
@@ -15,27 +16,18 @@ protected:
 
     template <class Query>
     Pairs by_device(const Query& query, double reach = 0.0) {
-        auto table = [&] {
-            if constexpr (requires { DevicePairTable<Query>(query, reach); }) {
-                return DevicePairTable<Query>(query, reach);
-            } else {
-                return DevicePairTable<Query>(query);
-            }
-        }();
-        const Status status = world().update(table);
-        EXPECT_TRUE(status.ok()) << status.message();
-        Pairs pairs;
-        for (std::uint32_t i = 0; i < table.size(); ++i) {
-            const auto row = table.row(i);
-            EXPECT_TRUE(row.has_value());
-            pairs.emplace_back(row->a.index, row->b.index);
-        }
-        return pairs;
+        return pairs_of(PairTable<Query>(query, within(reach, on_device)));
     }
     template <class Query>
     Pairs by_cpu(const Query& query, double reach = 0.0) {
-        PairTable<Query> table(query, {.reach = reach, .hits_only = true});
-        EXPECT_TRUE(world().update(table).ok());
+        return pairs_of(PairTable<Query>(query, within(reach, on_cpu)));
+    }
+
+private:
+    template <class Query>
+    Pairs pairs_of(PairTable<Query> table) {
+        const Status status = world().update(table);
+        EXPECT_TRUE(status.ok()) << status.message();
         Pairs pairs;
         for (const PairRow<Query>& row : table.rows()) {
             pairs.emplace_back(row.a.index, row.b.index);

@@ -75,17 +75,19 @@ TEST_F(SteadyStateOfWorlds, QuestionsForTheDeviceAllocateAndCreateNothing) {
     std::vector<NearestHit> near(points.size());
     const std::vector<Pose> poses(300, Pose{{3.6, 0.0}, 0.3});
     std::vector<std::uint8_t> meets(poses.size());
-    DeviceRays rays;
-    DeviceNearest nearest;
-    DevicePoseTests tests;
+    const WorldOptions by_device{.technique = Technique::compute};
+    WorldRequest rays;
+    WorldRequest nearest;
     expect_nothing_made(200, [&](int number) {
         const double angle = 0.7 * (number % 8);
         // The last two move together.
         const bool ok = world->move(instances[18], {{7.2, 0.0}, angle}).ok() &&
                         world->move(instances[19], {{7.2, 0.0}, angle}).ok() &&
-                        world->submit(nearest, {}, points).ok() &&
-                        world->cast_rays(rays, segments, hits).ok() && nearest.collect(near).ok() &&
-                        world->test_poses(tests, {.shape = shapes[1]}, poses, meets).ok();
+                        world->submit(nearest, {}, points, by_device).ok() &&
+                        world->cast_rays(segments, hits, by_device).ok() &&
+                        world->submit(rays, segments).ok() && nearest.collect(near).ok() &&
+                        world->test_poses(shapes[1], poses, meets, by_device).ok() &&
+                        rays.collect(hits).ok();
         return ok;
     });
     EXPECT_GT(nearest.left_to_cpu(), 10U);

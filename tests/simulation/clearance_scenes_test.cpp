@@ -38,7 +38,6 @@ public:
             }
         }
         query_.shape = tools::take(context_.add_shape(scene.mover()));
-        query_.filter = {};
     }
 
     [[nodiscard]] Clearance clearance(const Pose& pose) {
@@ -166,15 +165,14 @@ TEST(Nest, KeepsAGapBetweenItemsAndLeavesTheRestFree) {
             continue;
         }
         query.shape = nest.obstacles()[i].shape;
-        query.filter.ignored = nest.obstacles()[i].instance;
         const Pose pose = nest.obstacles()[i].pose;
         Clearance clearance;
         // The dragged item may lie over others: it does not count.
         tools::require(nest.world().set_filter(nest.obstacles()[*nest.moving_obstacle()].instance,
                                                2U, UINT32_MAX));
-        query.filter.mask = 1U;
-        tools::require(
-            nest.world().find_clearances(query, std::span(&pose, 1), std::span(&clearance, 1)));
+        const WorldFilter filter{.mask = 1U, .ignored = nest.obstacles()[i].instance};
+        tools::require(nest.world().find_clearances(query, std::span(&pose, 1),
+                                                    std::span(&clearance, 1), {.filter = filter}));
         EXPECT_GE(clearance.distance, 0.1 - clearance.error_bound) << i;
     }
 }

@@ -33,10 +33,10 @@ Questions any_questions(Random& random, const Rectangle& box, int count) {
         }
     }
     if (random.whole(0, 3) == 0) {
-        questions.filter.mask = static_cast<std::uint32_t>(random.whole(1, 15));
+        questions.options.filter.mask = static_cast<std::uint32_t>(random.whole(1, 15));
     }
-    questions.limits.min_clearance = random.whole(0, 1) == 0 ? 0.0 : -random.scale(1e-3, 1.0);
-    questions.limits.max_clearance = random.scale(1e-3, 3.0);
+    questions.clearances.min_clearance = random.whole(0, 1) == 0 ? 0.0 : -random.scale(1e-3, 1.0);
+    questions.clearances.max_clearance = random.scale(1e-3, 3.0);
     questions.nearest.count = static_cast<std::uint32_t>(random.whole(1, 6));
     questions.edges.count = static_cast<std::uint32_t>(random.whole(1, 9));
     questions.edges.kind = NearestKind::edges;
@@ -88,9 +88,10 @@ void Answers::add(const Clearance& clearance) {
 }
 
 void Answers::ask_clearances(World& world, const ClearanceQuery& query,
-                             std::span<const Pose> poses) {
-    std::vector<Clearance> clearances(poses.size());
-    if (!note(world.find_clearances(query, poses, clearances), "find_clearances")) {
+                             const Questions& questions) {
+    std::vector<Clearance> clearances(questions.poses.size());
+    if (!note(world.find_clearances(query, questions.poses, clearances, questions.options),
+              "find_clearances")) {
         return;
     }
     for (const Clearance& clearance : clearances) {
@@ -100,33 +101,32 @@ void Answers::ask_clearances(World& world, const ClearanceQuery& query,
 
 void Answers::ask_poses(World& world, ShapeHandle shape, const Questions& questions) {
     std::vector<std::uint8_t> intersects(questions.poses.size());
-    if (!note(world.test_poses({shape, questions.filter}, questions.poses, intersects),
+    if (!note(world.test_poses(shape, questions.poses, intersects, questions.options),
               "test_poses")) {
         return;
     }
     for (const std::uint8_t each : intersects) {
         add(static_cast<double>(each));
     }
-    ask_clearances(world, {shape, questions.filter}, questions.poses);
-    ClearanceQuery limited = questions.limits;
+    ask_clearances(world, {shape}, questions);
+    ClearanceQuery limited = questions.clearances;
     limited.shape = shape;
-    limited.filter = questions.filter;
-    ask_clearances(world, limited, questions.poses);
+    ask_clearances(world, limited, questions);
     ShapeNearestQuery several = questions.nearest_of_shape;
     several.shape = shape;
-    several.filter = questions.filter;
     std::vector<Clearance> nearest(questions.poses.size() * several.count);
-    if (note(world.find_nearest(several, questions.poses, nearest), "find_nearest of a shape")) {
+    if (note(world.find_nearest(several, questions.poses, nearest, questions.options),
+             "find_nearest of a shape")) {
         for (const Clearance& clearance : nearest) {
             add(clearance);
         }
     }
 }
 
-void Answers::ask_nearest(World& world, const NearestQuery& query,
-                          std::span<const Vector2> points) {
-    std::vector<NearestHit> hits(points.size() * query.count);
-    if (!note(world.find_nearest(query, points, hits), "find_nearest")) {
+void Answers::ask_nearest(World& world, const NearestQuery& query, const Questions& questions) {
+    std::vector<NearestHit> hits(questions.points.size() * query.count);
+    if (!note(world.find_nearest(query, questions.points, hits, questions.options),
+              "find_nearest")) {
         return;
     }
     for (const NearestHit& hit : hits) {
@@ -142,9 +142,9 @@ void Answers::ask_nearest(World& world, const NearestQuery& query,
 void Answers::ask_edges(World& world, ShapeHandle shape, const Questions& questions) {
     ShapeEdgeQuery query = questions.edges_of_shape;
     query.shape = shape;
-    query.filter = questions.filter;
     std::vector<ShapeEdgeHit> hits(questions.poses.size() * query.count);
-    if (!note(world.find_nearest(query, questions.poses, hits), "find_nearest, edges of a shape")) {
+    if (!note(world.find_nearest(query, questions.poses, hits, questions.options),
+              "find_nearest, edges of a shape")) {
         return;
     }
     for (const ShapeEdgeHit& hit : hits) {
@@ -161,8 +161,8 @@ void Answers::ask_edges(World& world, ShapeHandle shape, const Questions& questi
 void Answers::ask_rays(World& world, const Questions& questions) {
     std::vector<RayHit> first(questions.segments.size());
     RayHits all;
-    if (!note(world.cast_rays(questions.segments, first, questions.filter), "cast_rays, first") ||
-        !note(world.cast_rays(questions.segments, all, questions.filter), "cast_rays, all")) {
+    if (!note(world.cast_rays(questions.segments, first, questions.options), "cast_rays, first") ||
+        !note(world.cast_rays(questions.segments, all, questions.options), "cast_rays, all")) {
         return;
     }
     for (const RayHit& hit : first) {
@@ -178,9 +178,8 @@ void Answers::ask_rays(World& world, const Questions& questions) {
 
 void Answers::ask_casts(World& world, ShapeHandle shape, const Questions& questions) {
     std::vector<ShapeCastHit> hits(questions.sweeps.size());
-    const ShapeCastQuery query{shape, questions.filter, questions.tolerance,
-                               questions.contact_distance};
-    if (!note(world.cast_shape(query, questions.sweeps, hits), "cast_shape")) {
+    const ShapeCastQuery query{shape, questions.tolerance, questions.contact_distance};
+    if (!note(world.cast_shape(query, questions.sweeps, hits, questions.options), "cast_shape")) {
         return;
     }
     for (const ShapeCastHit& hit : hits) {
@@ -249,15 +248,15 @@ void Answers::ask_pairs(World& world, std::span<const InstanceHandle> instances)
 
 void Answers::ask_overlaps(World& world, ShapeHandle shape, const Questions& questions) {
     InstanceLists lists;
-    if (note(world.find_overlaps(questions.rectangles, lists, questions.filter),
+    if (note(world.find_overlaps(questions.rectangles, lists, questions.options),
              "find_overlaps of rectangles")) {
         add(lists);
     }
-    if (note(world.find_overlaps(questions.points, lists, questions.filter),
+    if (note(world.find_overlaps(questions.points, lists, questions.options),
              "find_overlaps of points")) {
         add(lists);
     }
-    if (note(world.find_overlaps({shape, questions.filter}, questions.poses, lists),
+    if (note(world.find_overlaps(shape, questions.poses, lists, questions.options),
              "find_overlaps of a shape")) {
         add(lists);
     }
@@ -265,10 +264,8 @@ void Answers::ask_overlaps(World& world, ShapeHandle shape, const Questions& que
 
 void Answers::ask(World& world, ShapeHandle shape, const Questions& questions) {
     ask_poses(world, shape, questions);
-    for (NearestQuery query : {questions.nearest, questions.edges}) {
-        query.filter = questions.filter;
-        ask_nearest(world, query, questions.points);
-    }
+    ask_nearest(world, questions.nearest, questions);
+    ask_nearest(world, questions.edges, questions);
     ask_edges(world, shape, questions);
     ask_rays(world, questions);
     ask_casts(world, shape, questions);

@@ -21,8 +21,8 @@ struct Questions {
     std::vector<Segment> segments;
     std::vector<Sweep> sweeps;
     std::vector<Rectangle> rectangles;
-    WorldFilter filter;
-    ClearanceQuery limits;
+    WorldOptions options;
+    ClearanceQuery clearances;
     NearestQuery nearest;
     NearestQuery edges;
     ShapeNearestQuery nearest_of_shape;
@@ -68,8 +68,8 @@ private:
     void add(const InstanceLists& lists);
 
     void ask_poses(World& world, ShapeHandle shape, const Questions& questions);
-    void ask_clearances(World& world, const ClearanceQuery& query, std::span<const Pose> poses);
-    void ask_nearest(World& world, const NearestQuery& query, std::span<const Vector2> points);
+    void ask_clearances(World& world, const ClearanceQuery& query, const Questions& questions);
+    void ask_nearest(World& world, const NearestQuery& query, const Questions& questions);
     void ask_edges(World& world, ShapeHandle shape, const Questions& questions);
     void ask_rays(World& world, const Questions& questions);
     void ask_casts(World& world, ShapeHandle shape, const Questions& questions);

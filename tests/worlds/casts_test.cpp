@@ -39,10 +39,11 @@ TimeOfImpactQuery query_of(const ShapeCastQuery& query, const Sweep& sweep,
 
 /// The earliest of the times of impact with every instance that passes; at time 0, what is touched
 /// at the start comes before what is hit a moment later.
-ShapeCastHit earliest(Scene& scene, const ShapeCastQuery& query, const Sweep& sweep) {
+ShapeCastHit earliest(Scene& scene, const ShapeCastQuery& query, const WorldFilter& filter,
+                      const Sweep& sweep) {
     ShapeCastHit first;
     for (std::size_t i = 0; i < scene.size(); ++i) {
-        if (!scene.passes(i, query.filter)) {
+        if (!scene.passes(i, filter)) {
             continue;
         }
         const auto found = scene.context().answer(query_of(query, sweep, scene.instance(i)));
@@ -74,8 +75,8 @@ void check_equal(const ShapeCastHit& hit, const ShapeCastHit& expected) {
 
 /// Before the time of a hit, the shape is farther away than the contact distance; at its end it is
 /// not.
-void check_never_late(Scene& scene, const ShapeCastQuery& query, const Sweep& sweep,
-                      const ShapeCastHit& hit) {
+void check_never_late(Scene& scene, const ShapeCastQuery& query, const WorldOptions& options,
+                      const Sweep& sweep, const ShapeCastHit& hit) {
     const auto pose_at = [&](double time) {
         return Pose{{sweep.start.translation.x +
                          time * (sweep.end.translation.x - sweep.start.translation.x),
@@ -92,17 +93,15 @@ void check_never_late(Scene& scene, const ShapeCastQuery& query, const Sweep& sw
         return;
     }
     std::vector<Clearance> clearances(before.size());
-    ASSERT_TRUE(
-        scene.world().find_clearances({query.shape, query.filter}, before, clearances).ok());
+    ASSERT_TRUE(scene.world().find_clearances({query.shape}, before, clearances, options).ok());
     for (const Clearance& clearance : clearances) {
         EXPECT_GE(clearance.distance, query.contact_distance - clearance.error_bound);
     }
     if (hit.state == ImpactState::hit) {
         const Pose end = pose_at(std::min(1.0, hit.time + hit.time_error_bound));
         Clearance there;
-        ASSERT_TRUE(scene.world()
-                        .find_clearances({query.shape, query.filter}, {&end, 1}, {&there, 1})
-                        .ok());
+        ASSERT_TRUE(
+            scene.world().find_clearances({query.shape}, {&end, 1}, {&there, 1}, options).ok());
         EXPECT_LE(there.distance, query.contact_distance + query.tolerance + hit.error_bound);
     }
 }
@@ -122,7 +121,7 @@ TEST_P(WorldCasts, AreTheEarliestTimeOfImpact) {
         query.shape = scene.add_shape(scaled_and_moved(star(random, random.whole(3, 40), 0.3),
                                                        random.scale(0.02, 1.0),
                                                        {random.between(-1.0, 1.0), 0.0}));
-        query.filter = any_filter(random, scene);
+        const WorldOptions options{.filter = any_filter(random, scene)};
         // As small as double precision resolves at these coordinates.
         const double size =
             std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x),
@@ -131,12 +130,12 @@ TEST_P(WorldCasts, AreTheEarliestTimeOfImpact) {
         query.contact_distance = random.whole(0, 1) == 0 ? 0.0 : random.scale(1e-3, 0.3);
         const std::vector<Sweep> sweeps = any_sweeps(random, scene, box, 10);
         std::vector<ShapeCastHit> hits(sweeps.size());
-        const Status status = scene.world().cast_shape(query, sweeps, hits);
+        const Status status = scene.world().cast_shape(query, sweeps, hits, options);
         ASSERT_TRUE(status.ok()) << status.text();
         for (std::size_t i = 0; i < sweeps.size(); ++i) {
             SCOPED_TRACE("sweep " + std::to_string(i));
-            check_equal(hits[i], earliest(scene, query, sweeps[i]));
-            check_never_late(scene, query, sweeps[i], hits[i]);
+            check_equal(hits[i], earliest(scene, query, options.filter, sweeps[i]));
+            check_never_late(scene, query, options, sweeps[i], hits[i]);
             if (HasFatalFailure() || HasNonfatalFailure()) {
                 return;
             }

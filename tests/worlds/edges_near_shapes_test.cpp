@@ -63,8 +63,8 @@ void check_hit(const Scene& scene, const PlacedRings& shape, const ShapeEdgeHit&
 }
 
 void check_hits(const Scene& scene, const PlacedRings& shape, const ShapeEdgeQuery& query,
-                std::span<const ShapeEdgeHit> hits) {
-    const std::vector<Wide> truth = distances_of(scene, shape, query.filter);
+                const WorldFilter& filter, std::span<const ShapeEdgeHit> hits) {
+    const std::vector<Wide> truth = distances_of(scene, shape, filter);
     std::set<std::pair<std::size_t, std::uint32_t>> seen;
     std::size_t count = 0;
     double bound = 0.0;
@@ -76,7 +76,7 @@ void check_hits(const Scene& scene, const PlacedRings& shape, const ShapeEdgeQue
         check_hit(scene, shape, hit);
         EXPECT_LE(hit.distance, query.max_distance);
         const std::size_t position = scene.position(hit.instance).value();
-        EXPECT_TRUE(scene.passes(position, query.filter));
+        EXPECT_TRUE(scene.passes(position, filter));
         EXPECT_TRUE(seen.insert({position, hit.edge}).second);
         if (count > 0) {
             const ShapeEdgeHit& before = hits[count - 1];
@@ -111,15 +111,15 @@ TEST_P(EdgesNearShapes, AreThoseOfTheBruteForce) {
         const Rectangle box = box_of(scene.placements());
         const Rings rings = scaled_and_moved(any_shape(random).rings, random.scale(0.05, 2.0), {});
         ShapeEdgeQuery query{scene.add_shape(rings)};
-        query.filter = any_filter(random, scene);
+        const WorldOptions options{.filter = any_filter(random, scene)};
         for (int i = 0; i < 4; ++i) {
             query.count = static_cast<std::uint32_t>(random.whole(1, 12));
             query.max_distance = random.whole(0, 2) > 0 ? infinity : random.scale(1e-3, 10.0);
             const Pose pose{any_point(random, scene, box), random.between(-7.0, 7.0)};
             std::vector<ShapeEdgeHit> hits(query.count);
-            const Status status = scene.world().find_nearest(query, {&pose, 1}, hits);
+            const Status status = scene.world().find_nearest(query, {&pose, 1}, hits, options);
             ASSERT_TRUE(status.ok()) << status.text();
-            check_hits(scene, PlacedRings(rings, pose), query, hits);
+            check_hits(scene, PlacedRings(rings, pose), query, options.filter, hits);
             if (HasFatalFailure() || HasNonfatalFailure()) {
                 return;
             }
@@ -156,9 +156,9 @@ protected:
 };
 
 TEST_F(EdgesNearSquares, AreInOrderOfDistanceThenOfAddingThenOfTheRing) {
-    expect_edges(find({item_, {}, 4}, {{6.0, 1.0}}), 0,
+    expect_edges(find({item_, 4}, {{6.0, 1.0}}), 0,
                  {{1, 2.0}, {0, std::sqrt(5.0)}, {2, std::sqrt(8.0)}});
-    const std::vector<ShapeEdgeHit> inside = find({item_, {}, 4}, {{1.0, 1.5}});
+    const std::vector<ShapeEdgeHit> inside = find({item_, 4}, {{1.0, 1.5}});
     expect_edges(inside, 0, {{3, 1.0}, {0, 1.5}, {2, 1.5}, {1, 2.0}});
     EXPECT_EQ(inside[0].point.x, 1.0);
     EXPECT_EQ(inside[0].nearest.x, 0.0);
@@ -166,7 +166,7 @@ TEST_F(EdgesNearSquares, AreInOrderOfDistanceThenOfAddingThenOfTheRing) {
 }
 
 TEST_F(EdgesNearSquares, ThatAreCoveredAreAtDistance0) {
-    ShapeEdgeQuery query{scene_.add_shape(rectangle({-1, -1}, {12, 5})), {}, 8};
+    ShapeEdgeQuery query{scene_.add_shape(rectangle({-1, -1}, {12, 5})), 8};
     const std::vector<ShapeEdgeHit> hits = find(query, {});
     expect_edges(hits, 0, {{0, 0.0}, {1, 0.0}, {2, 0.0}, {3, 0.0}});
     expect_edges({hits.begin() + 4, hits.end()}, 1, {{0, 0.0}, {2, 0.0}, {3, 0.0}, {1, 2.0}});
@@ -177,9 +177,9 @@ TEST_F(EdgesNearSquares, ThatAreCoveredAreAtDistance0) {
 }
 
 TEST_F(EdgesNearSquares, BeyondTheLargestDistanceAreNone) {
-    EXPECT_EQ(find({item_, {}, 2, 2.0}, {{6.0, 1.0}})[0].edge, 1U);
-    EXPECT_EQ(find({item_, {}, 2, 2.0}, {{6.0, 1.0}})[1].instance, InstanceHandle());
-    EXPECT_EQ(find({item_, {}, 1, 1.99}, {{6.0, 1.0}})[0].instance, InstanceHandle());
+    EXPECT_EQ(find({item_, 2, 2.0}, {{6.0, 1.0}})[0].edge, 1U);
+    EXPECT_EQ(find({item_, 2, 2.0}, {{6.0, 1.0}})[1].instance, InstanceHandle());
+    EXPECT_EQ(find({item_, 1, 1.99}, {{6.0, 1.0}})[0].instance, InstanceHandle());
 }
 
 TEST_F(EdgesNearSquares, AreRefusedWithoutRoomOrReason) {
@@ -188,9 +188,9 @@ TEST_F(EdgesNearSquares, AreRefusedWithoutRoomOrReason) {
         std::vector<ShapeEdgeHit> hits(room);
         return scene_.world().find_nearest(query, poses, hits).code();
     };
-    EXPECT_EQ(code_of({item_, {}, 2}, 5), StatusCode::invalid_query);
-    EXPECT_EQ(code_of({item_, {}, 0}, 0), StatusCode::invalid_query);
-    EXPECT_EQ(code_of({item_, {}, 1, -1.0}, 3), StatusCode::invalid_query);
+    EXPECT_EQ(code_of({item_, 2}, 5), StatusCode::invalid_query);
+    EXPECT_EQ(code_of({item_, 0}, 0), StatusCode::invalid_query);
+    EXPECT_EQ(code_of({item_, 1, -1.0}, 3), StatusCode::invalid_query);
     EXPECT_EQ(code_of({ShapeHandle()}, 3), StatusCode::unknown_shape);
     EXPECT_EQ(code_of({item_}, 3), StatusCode::ok);
 }

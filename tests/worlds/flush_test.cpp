@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/flush_tiles.hpp>
+#include <tests/support/pair_tables.hpp>
 
 #include <algorithm>
 #include <set>
@@ -46,18 +47,18 @@ public:
         return touching;
     }
 
-    Pairs by_test_pairs() {
+    Pairs by_list() {
         std::vector<InstanceHandle> a;
         std::vector<InstanceHandle> b;
         for (const auto& [first, second] : tiles_.neighbours()) {
             a.push_back(scene_.handle(first));
             b.push_back(scene_.handle(second));
         }
-        std::vector<std::uint8_t> touch(a.size());
-        EXPECT_TRUE(scene_.world().test_pairs(a, b, touch).ok());
+        PairTable table(IntersectionTestQuery{}, of_list);
+        EXPECT_TRUE(scene_.world().update(table, {.a = a, .b = b}).ok());
         Pairs touching;
-        for (std::size_t i = 0; i < touch.size(); ++i) {
-            if (touch[i] != 0) {
+        for (std::size_t i = 0; i < table.rows().size(); ++i) {
+            if (table.rows()[i].intersects) {
                 touching.insert(tiles_.neighbours()[i]);
             }
         }
@@ -83,11 +84,7 @@ public:
     template <class Query>
     Pairs by_table(const Query& query, bool hits_only = true) {
         PairTable<Query> table(query, {.hits_only = hits_only});
-        if constexpr (std::is_same_v<Query, TimeOfImpactQuery>) {
-            EXPECT_TRUE(scene_.world().update(table, {}, {}).ok());
-        } else {
-            EXPECT_TRUE(scene_.world().update(table).ok());
-        }
+        EXPECT_TRUE(scene_.world().update(table).ok());
         Pairs rows;
         for (const PairRow<Query>& row : table.rows()) {
             EXPECT_EQ(row.status, StatusCode::ok);
@@ -100,7 +97,7 @@ public:
     Pairs by_overlaps() {
         const std::vector<Pose> poses = tiles_.poses();
         InstanceLists lists;
-        EXPECT_TRUE(scene_.world().find_overlaps({scene_.shape(0)}, poses, lists).ok());
+        EXPECT_TRUE(scene_.world().find_overlaps(scene_.shape(0), poses, lists).ok());
         Pairs found;
         for (std::size_t i = 0; i < poses.size(); ++i) {
             for (std::uint32_t k = lists.offsets[i]; k < lists.offsets[i + 1]; ++k) {
@@ -131,7 +128,7 @@ TEST(FlushTiles, TouchHoweverTheyAreAskedFor) {
         const Pairs touching = ask.one_by_one();
         ASSERT_EQ(touching.size(), tiles.neighbours().size());
         const double d = tiles.pitch / 16.0;
-        EXPECT_EQ(ask.by_test_pairs(), touching);
+        EXPECT_EQ(ask.by_list(), touching);
         EXPECT_EQ(ask.by_overlaps(), both_ways(touching));
         EXPECT_EQ(ask.by_table(IntersectionTestQuery{}), touching);
         EXPECT_EQ(ask.by_table(SeparationQuery{.tolerance = d}), touching);

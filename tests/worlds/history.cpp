@@ -219,7 +219,7 @@ void History::glance() {
     std::vector<RayHit> hits(questions.segments.size());
     switch (random_.whole(0, 2)) {
         case 0:
-            require(world_->test_poses({asked_shape_}, questions.poses, intersects), "test_poses");
+            require(world_->test_poses(asked_shape_, questions.poses, intersects), "test_poses");
             break;
         case 1:
             require(world_->find_nearest({}, questions.points, nearest), "find_nearest");

@@ -141,7 +141,7 @@ TEST(WorldLaws, WhoeverOwnsTheWorldAndTheContext) {
         ASSERT_TRUE(other.add({scene.shape(i), ask.placements[i].pose}).has_value());
     }
     std::vector<std::uint8_t> intersects(ask.questions.poses.size());
-    ASSERT_TRUE(other.test_poses({shape}, ask.questions.poses, intersects).ok());
+    ASSERT_TRUE(other.test_poses(shape, ask.questions.poses, intersects).ok());
     Answers moved([&scene](InstanceHandle handle) {
         const auto position = scene.position(handle);
         return position ? static_cast<double>(*position) : -1.0;
@@ -158,7 +158,7 @@ TEST(WorldLaws, WhoeverOwnsTheWorldAndTheContext) {
         const auto position = scene.position(handle);
         return position ? static_cast<double>(*position) : -1.0;
     });
-    ASSERT_TRUE(other.test_poses({shape}, ask.questions.poses, intersects).ok());
+    ASSERT_TRUE(other.test_poses(shape, ask.questions.poses, intersects).ok());
     moved_later.ask(world, shape, ask.questions);
     EXPECT_EQ(moved_later.difference_from(later), "");
     std::vector<std::uint8_t> expected_intersects(intersects.size());
@@ -166,7 +166,7 @@ TEST(WorldLaws, WhoeverOwnsTheWorldAndTheContext) {
     for (std::size_t i = 0; i < scene.size(); ++i) {
         ASSERT_TRUE(fresh.add({scene.shape(i), ask.placements[i].pose}).has_value());
     }
-    ASSERT_TRUE(fresh.test_poses({shape}, ask.questions.poses, expected_intersects).ok());
+    ASSERT_TRUE(fresh.test_poses(shape, ask.questions.poses, expected_intersects).ok());
     EXPECT_EQ(intersects, expected_intersects);
 }
 

@@ -76,13 +76,13 @@ Lists all_lists(Scene& scene, const Inputs& inputs) {
     lists.add(overlaps, scene);
     EXPECT_TRUE(world.find_overlaps(inputs.rectangles, overlaps).ok());
     lists.add(overlaps, scene);
-    EXPECT_TRUE(world.find_overlaps({item, {}}, inputs.poses, overlaps).ok());
+    EXPECT_TRUE(world.find_overlaps(item, inputs.poses, overlaps).ok());
     lists.add(overlaps, scene);
     RayHits hits;
     EXPECT_TRUE(world.cast_rays(inputs.segments, hits).ok());
     lists.add(hits, scene);
     std::vector<ShapeCastHit> casts(inputs.sweeps.size());
-    EXPECT_TRUE(world.cast_shape({item, {}, 1e-3}, inputs.sweeps, casts).ok());
+    EXPECT_TRUE(world.cast_shape({item, 1e-3}, inputs.sweeps, casts).ok());
     lists.add(casts, scene);
     return lists;
 }

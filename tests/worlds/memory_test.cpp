@@ -123,7 +123,7 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
     const Call calls[] = {
         [](Changed& c) {
             std::vector<std::uint8_t> out(c.questions.poses.size());
-            return c.scene.world().test_poses({c.item}, c.questions.poses, out);
+            return c.scene.world().test_poses(c.item, c.questions.poses, out);
         },
         [](Changed& c) {
             const InstanceHandle a[] = {c.scene.handle(0), c.scene.handle(2)};
@@ -147,11 +147,11 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
         },
         [](Changed& c) {
             std::vector<Clearance> out(2 * c.questions.poses.size());
-            return c.scene.world().find_nearest({c.item, {}, 2}, c.questions.poses, out);
+            return c.scene.world().find_nearest({c.item, 2}, c.questions.poses, out);
         },
         [](Changed& c) {
             std::vector<ShapeEdgeHit> out(2 * c.questions.poses.size());
-            return c.scene.world().find_nearest({c.item, {}, 2}, c.questions.poses, out);
+            return c.scene.world().find_nearest({c.item, 2}, c.questions.poses, out);
         },
         [](Changed& c) {
             TimeOfImpactQuery query;
@@ -173,7 +173,7 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
         },
         [](Changed& c) {
             std::vector<ShapeCastHit> out(c.questions.sweeps.size());
-            return c.scene.world().cast_shape({c.item, {}, 1e-3}, c.questions.sweeps, out);
+            return c.scene.world().cast_shape({c.item, 1e-3}, c.questions.sweeps, out);
         },
         [](Changed& c) {
             InstanceLists out;
@@ -319,7 +319,7 @@ private:
     void ask(World& world) {
         NearestQuery three;
         three.count = 3;
-        ASSERT_TRUE(world.test_poses({item_}, questions_.poses, intersects_).ok());
+        ASSERT_TRUE(world.test_poses(item_, questions_.poses, intersects_).ok());
         const std::span<const InstanceHandle> all(handles_);
         const PairTableInput pairs{.a = all.subspan(1), .b = all.first(all.size() - 1)};
         ASSERT_TRUE(world.update(tests_, pairs).ok());
@@ -328,16 +328,16 @@ private:
         ASSERT_TRUE(world.update(contacts_, pairs).ok());
         ASSERT_TRUE(world.find_clearances({item_}, questions_.poses, clearances_).ok());
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
-        ASSERT_TRUE(world.find_nearest({item_, {}, 3}, questions_.poses, nearest_of_item_).ok());
-        ASSERT_TRUE(world.find_nearest({item_, {}, 3}, questions_.poses, edges_near_item_).ok());
+        ASSERT_TRUE(world.find_nearest({item_, 3}, questions_.poses, nearest_of_item_).ok());
+        ASSERT_TRUE(world.find_nearest({item_, 3}, questions_.poses, edges_near_item_).ok());
         three.kind = NearestKind::edges;
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
         ASSERT_TRUE(world.cast_rays(questions_.segments, hits_).ok());
         ASSERT_TRUE(world.cast_rays(questions_.segments, all_).ok());
-        ASSERT_TRUE(world.cast_shape({item_, {}, 1e-3}, questions_.sweeps, casts_).ok());
+        ASSERT_TRUE(world.cast_shape({item_, 1e-3}, questions_.sweeps, casts_).ok());
         ASSERT_TRUE(world.find_overlaps(questions_.rectangles, lists_).ok());
         ASSERT_TRUE(world.find_overlaps(questions_.points, lists_).ok());
-        ASSERT_TRUE(world.find_overlaps({item_, {}}, questions_.poses, lists_).ok());
+        ASSERT_TRUE(world.find_overlaps(item_, questions_.poses, lists_).ok());
     }
 
     Scene scene_;

@@ -66,20 +66,20 @@ void NearestOfShapes::check(Scene& scene, std::uint64_t seed) {
                                                  : any_shape(random).rings,
                          random.scale(0.05, 2.0), {});
     ShapeNearestQuery query{scene.add_shape(rings)};
-    query.filter = any_filter(random, scene);
+    const WorldOptions options{.filter = any_filter(random, scene)};
     query.count = static_cast<std::uint32_t>(random.whole(1, static_cast<int>(scene.size()) + 2));
     std::vector<Pose> poses;
     for (int i = 0; i < 8; ++i) {
         poses.push_back({any_point(random, scene, box), random.between(-7.0, 7.0)});
     }
-    const auto each = clearances_from_each(scene, query.shape, query.filter, poses);
+    const auto each = clearances_from_each(scene, query.shape, options.filter, poses);
     if (random.whole(0, 1) == 0 && !each.empty()) {
         // Sometimes exactly at an answer.
         query.max_distance = random.whole(0, 1) == 0 ? random.scale(1e-3, 10.0)
                                                      : std::abs(each.front().front().distance);
     }
     std::vector<Clearance> nearest(poses.size() * query.count);
-    const Status status = scene.world().find_nearest(query, poses, nearest);
+    const Status status = scene.world().find_nearest(query, poses, nearest, options);
     ASSERT_TRUE(status.ok()) << status.text();
     for (std::size_t i = 0; i < poses.size(); ++i) {
         std::vector<Clearance> expected;
@@ -148,7 +148,7 @@ TEST_F(NearestSquares, AreInOrderOfDistanceThenOfAdding) {
     const auto expect = [&](const Pose& pose,
                             std::vector<std::pair<std::size_t, double>> expected) {
         for (std::uint32_t count = 1; count <= 4; ++count) {
-            const std::vector<Clearance> nearest = find({item_, {}, count}, pose);
+            const std::vector<Clearance> nearest = find({item_, count}, pose);
             for (std::uint32_t k = 0; k < count; ++k) {
                 EXPECT_EQ(nearest[k].instance, scene_.handle(expected[k].first)) << count << k;
                 EXPECT_EQ(nearest[k].distance, expected[k].second) << count << k;
@@ -159,7 +159,7 @@ TEST_F(NearestSquares, AreInOrderOfDistanceThenOfAdding) {
     expect({{6.5, 1.0}}, {{0, 2.5}, {1, 2.5}, {2, 2.5}, {3, 22.5}});
     expect({{13.0, 1.5}}, {{0, -1.0}, {1, 9.0}, {2, 9.0}, {3, 16.0}});
     expect({{4.0, 1.0}}, {{1, 0.0}, {2, 0.0}, {0, 5.0}, {3, 25.0}});
-    const std::vector<Clearance> nearest = find({item_, {}, 2}, {{6.0, 1.0}});
+    const std::vector<Clearance> nearest = find({item_, 2}, {{6.0, 1.0}});
     EXPECT_EQ(nearest[0].direction, (Vector2{-1.0, 0.0}));
     EXPECT_EQ(nearest[0].point.x, 6.0);
     EXPECT_EQ(nearest[0].nearest.x, 4.0);
@@ -186,7 +186,7 @@ TEST(NearestOfTwoSquares, AreInOrderOfAddingOnEitherSide) {
 
 TEST_F(NearestSquares, BeyondTheLargestDistanceAreNone) {
     for (const double max_distance : {2.0, 2.9, 3.0}) {
-        const std::vector<Clearance> nearest = find({item_, {}, 5, max_distance}, {{6.0, 1.0}});
+        const std::vector<Clearance> nearest = find({item_, 5, max_distance}, {{6.0, 1.0}});
         const std::size_t within = max_distance < 3.0 ? 2 : 3;
         for (std::size_t k = 0; k < nearest.size(); ++k) {
             EXPECT_EQ(nearest[k].instance == InstanceHandle(), k >= within) << max_distance << k;
@@ -194,7 +194,7 @@ TEST_F(NearestSquares, BeyondTheLargestDistanceAreNone) {
         }
     }
     // What is intersected is not far away, however deep.
-    EXPECT_EQ(find({item_, {}, 1, 0.0}, {{1.5, 1.5}})[0].distance, -1.5);
+    EXPECT_EQ(find({item_, 1, 0.0}, {{1.5, 1.5}})[0].distance, -1.5);
 }
 
 TEST_F(NearestSquares, TheFirstIsTheClearance) {
@@ -204,34 +204,33 @@ TEST_F(NearestSquares, TheFirstIsTheClearance) {
                         random.between(-3.0, 3.0)};
         Clearance clearance;
         ASSERT_TRUE(scene_.world().find_clearances({item_}, {&pose, 1}, {&clearance, 1}).ok());
-        EXPECT_TRUE(equal(find({item_, {}, 3}, pose)[0], clearance));
+        EXPECT_TRUE(equal(find({item_, 3}, pose)[0], clearance));
     }
 }
 
 TEST_F(NearestSquares, AreRefusedWithoutRoomOrReason) {
     const std::vector<Pose> poses(3);
     const auto expect = [&](const ShapeNearestQuery& query, std::size_t room,
-                            std::span<const Pose> asked, StatusCode code, const char* words) {
+                            std::span<const Pose> asked, StatusCode code, const char* words,
+                            const WorldOptions& options = {}) {
         std::vector<Clearance> nearest(room);
-        const Status status = scene_.world().find_nearest(query, asked, nearest);
+        const Status status = scene_.world().find_nearest(query, asked, nearest, options);
         EXPECT_EQ(status.code(), code);
         EXPECT_NE(status.message().find("find_nearest"), std::string::npos) << status.text();
         EXPECT_NE(status.message().find(words), std::string::npos) << status.text();
     };
     constexpr StatusCode invalid = StatusCode::invalid_query;
-    expect({item_, {}, 2}, 5, poses, invalid, "3 poses");
-    expect({item_, {}, 2}, 7, poses, invalid, "3 poses");
-    expect({item_, {}, 0}, 0, poses, invalid, "0 hits");
-    expect({item_, {}, 1, -1.0}, 3, poses, invalid, "at least 0");
-    expect({item_, {}, 1, std::numeric_limits<double>::quiet_NaN()}, 3, poses, invalid,
-           "at least 0");
+    expect({item_, 2}, 5, poses, invalid, "3 poses");
+    expect({item_, 2}, 7, poses, invalid, "3 poses");
+    expect({item_, 0}, 0, poses, invalid, "0 hits");
+    expect({item_, 1, -1.0}, 3, poses, invalid, "at least 0");
+    expect({item_, 1, std::numeric_limits<double>::quiet_NaN()}, 3, poses, invalid, "at least 0");
     expect({ShapeHandle()}, 3, poses, StatusCode::unknown_shape, "");
     const std::vector<Pose> bad{{}, {{infinity, 0.0}}};
     expect({item_}, 2, bad, invalid, "number 1");
-    ShapeNearestQuery of_another{item_};
     Scene other({{"elsewhere", rectangle({0, 0}, {1, 1}), {}}});
-    of_another.filter.ignored = other.handle(0);
-    expect(of_another, 3, poses, StatusCode::unknown_instance, "another world");
+    expect({item_}, 3, poses, StatusCode::unknown_instance, "another world",
+           {.filter = {.ignored = other.handle(0)}});
 }
 
 }  // namespace

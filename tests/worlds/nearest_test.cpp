@@ -19,10 +19,10 @@ struct Candidate {
 };
 
 std::vector<Candidate> candidates_of(const Scene& scene, const NearestQuery& query,
-                                     const Vector2& point) {
+                                     const WorldFilter& filter, const Vector2& point) {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < scene.size(); ++i) {
-        if (!scene.passes(i, query.filter)) {
+        if (!scene.passes(i, filter)) {
             continue;
         }
         if (query.kind == NearestKind::instances) {
@@ -51,12 +51,13 @@ void check_place(const Scene& scene, const NearestHit& hit, const Vector2& point
     EXPECT_LE(static_cast<double>(off), bound);
 }
 
-void check_order(const Scene& scene, const NearestQuery& query, std::span<const NearestHit> hits) {
+void check_order(const Scene& scene, const NearestQuery& query, const WorldFilter& filter,
+                 std::span<const NearestHit> hits) {
     std::set<std::size_t> seen;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const auto here = scene.position(hits[i].instance);
         ASSERT_TRUE(here.has_value());
-        EXPECT_TRUE(scene.passes(*here, query.filter));
+        EXPECT_TRUE(scene.passes(*here, filter));
         if (query.kind == NearestKind::instances) {
             EXPECT_TRUE(seen.insert(*here).second) << "instance " << *here << " twice";
         } else {
@@ -73,9 +74,9 @@ void check_order(const Scene& scene, const NearestQuery& query, std::span<const 
 
 /// Compares the hits of a point with the truth. The k-th nearest is as far away as the k-th of the
 /// brute force, up to the bound; and so is each that is named.
-void check_point(const Scene& scene, const NearestQuery& query, const Vector2& point,
-                 std::span<const NearestHit> hits) {
-    std::vector<Candidate> candidates = candidates_of(scene, query, point);
+void check_point(const Scene& scene, const NearestQuery& query, const WorldFilter& filter,
+                 const Vector2& point, std::span<const NearestHit> hits) {
+    std::vector<Candidate> candidates = candidates_of(scene, query, filter, point);
     const auto found = static_cast<std::size_t>(
         std::find_if(hits.begin(), hits.end(),
                      [](const NearestHit& hit) { return hit.instance == InstanceHandle(); }) -
@@ -85,7 +86,7 @@ void check_point(const Scene& scene, const NearestQuery& query, const Vector2& p
         EXPECT_EQ(hits[i].distance, infinity);
     }
     const std::span<const NearestHit> all = hits.first(found);
-    check_order(scene, query, all);
+    check_order(scene, query, filter, all);
     double bound = 0.0;
     for (const NearestHit& hit : all) {
         EXPECT_LE(std::abs(hit.distance), query.max_distance);
@@ -117,12 +118,11 @@ void check_point(const Scene& scene, const NearestQuery& query, const Vector2& p
     }
 }
 
-NearestQuery any_query(Random& random, const Scene& scene) {
+NearestQuery any_query(Random& random) {
     NearestQuery query;
     query.kind = random.whole(0, 1) == 0 ? NearestKind::instances : NearestKind::edges;
     query.count = random.whole(0, 2) == 0 ? 1 : static_cast<std::uint32_t>(random.whole(2, 20));
     query.max_distance = random.whole(0, 2) > 0 ? infinity : random.scale(1e-3, 10.0);
-    query.filter = any_filter(random, scene);
     return query;
 }
 
@@ -138,17 +138,18 @@ TEST_P(WorldNearest, IsThatOfTheBruteForce) {
         const Rectangle box = box_of(scene.placements());
         Random random(seed + 1);
         for (int asked = 0; asked < 6; ++asked) {
-            const NearestQuery query = any_query(random, scene);
+            const NearestQuery query = any_query(random);
+            const WorldOptions options{.filter = any_filter(random, scene)};
             std::vector<Vector2> points(12);
             for (Vector2& point : points) {
                 point = any_point(random, scene, box);
             }
             std::vector<NearestHit> hits(points.size() * query.count);
-            const Status status = scene.world().find_nearest(query, points, hits);
+            const Status status = scene.world().find_nearest(query, points, hits, options);
             ASSERT_TRUE(status.ok()) << status.text();
             for (std::size_t i = 0; i < points.size(); ++i) {
                 SCOPED_TRACE("query " + std::to_string(asked) + ", point " + std::to_string(i));
-                check_point(scene, query, points[i],
+                check_point(scene, query, options.filter, points[i],
                             std::span(hits).subspan(i * query.count, query.count));
                 if (HasFatalFailure() || HasNonfatalFailure()) {
                     return;

@@ -82,8 +82,9 @@ TEST_P(WorldOverlaps, OfPointsAndRectanglesAreThoseOfTheBruteForce) {
         }
         InstanceLists of_points;
         InstanceLists of_rectangles;
-        ASSERT_TRUE(scene.world().find_overlaps(points, of_points, filter).ok());
-        ASSERT_TRUE(scene.world().find_overlaps(rectangles, of_rectangles, filter).ok());
+        ASSERT_TRUE(scene.world().find_overlaps(points, of_points, {.filter = filter}).ok());
+        ASSERT_TRUE(
+            scene.world().find_overlaps(rectangles, of_rectangles, {.filter = filter}).ok());
         ASSERT_EQ(of_points.offsets.size(), points.size() + 1);
         ASSERT_EQ(of_rectangles.offsets.size(), rectangles.size() + 1);
         for (std::size_t i = 0; i < points.size(); ++i) {

@@ -171,7 +171,7 @@ bool equal(const Clearance& a, const Clearance& b) {
 /// With limits, the answer is that without them, or a limit.
 void check_limits(Scene& scene, const Asked& asked, const WorldFilter& filter, Random& random,
                   std::span<const Pose> poses, std::span<const Clearance> unlimited) {
-    ClearanceQuery query{asked.shape, filter};
+    ClearanceQuery query{asked.shape};
     const Clearance& some =
         unlimited[static_cast<std::size_t>(random.whole(0, static_cast<int>(poses.size()) - 1))];
     // Sometimes exactly at an answer.
@@ -182,7 +182,7 @@ void check_limits(Scene& scene, const Asked& asked, const WorldFilter& filter, R
         query.min_clearance = -infinity;
     }
     std::vector<Clearance> limited(poses.size());
-    const Status status = scene.world().find_clearances(query, poses, limited);
+    const Status status = scene.world().find_clearances(query, poses, limited, {.filter = filter});
     ASSERT_TRUE(status.ok()) << status.text();
     for (std::size_t i = 0; i < poses.size(); ++i) {
         SCOPED_TRACE("pose " + std::to_string(i));
@@ -209,14 +209,15 @@ void WorldPoses::check(Scene& scene, std::uint64_t seed) {
     Random random(seed + 1);
     const Asked asked = any_asked(random, scene);
     const WorldFilter filter = any_filter(random, scene);
+    const WorldOptions options{.filter = filter};
     const std::vector<Pose> poses = poses_around(random, scene, box, 16);
     std::vector<std::uint8_t> intersects(poses.size(), 7);
     std::vector<Clearance> clearances(poses.size());
     InstanceLists lists;
     World& world = scene.world();
-    ASSERT_TRUE(world.test_poses({asked.shape, filter}, poses, intersects).ok());
-    ASSERT_TRUE(world.find_overlaps({asked.shape, filter}, poses, lists).ok());
-    ASSERT_TRUE(world.find_clearances({asked.shape, filter}, poses, clearances).ok());
+    ASSERT_TRUE(world.test_poses(asked.shape, poses, intersects, options).ok());
+    ASSERT_TRUE(world.find_overlaps(asked.shape, poses, lists, options).ok());
+    ASSERT_TRUE(world.find_clearances({asked.shape}, poses, clearances, options).ok());
     ASSERT_EQ(lists.offsets.size(), poses.size() + 1);
     for (std::size_t i = 0; i < poses.size(); ++i) {
         SCOPED_TRACE("pose " + std::to_string(i));
@@ -276,16 +277,18 @@ std::vector<Pose> paths_through(Random& random, const Scene& scene, const Rectan
 
 void check_paths(Scene& scene, std::uint64_t seed) {
     Random random(seed + 1);
-    ClearanceQuery query{any_asked(random, scene).shape, any_filter(random, scene)};
+    ClearanceQuery query{any_asked(random, scene).shape};
+    const WorldOptions options{.filter = any_filter(random, scene)};
     if (random.whole(0, 3) == 0) {
         query.min_clearance = random.whole(0, 1) == 0 ? 0.0 : -random.scale(1e-3, 1.0);
     }
     const std::vector<Pose> poses = paths_through(random, scene, box_of(scene.placements()));
     std::vector<Clearance> on_paths(poses.size());
-    ASSERT_TRUE(scene.world().find_clearances(query, poses, on_paths).ok());
+    ASSERT_TRUE(scene.world().find_clearances(query, poses, on_paths, options).ok());
     for (std::size_t i = 0; i < poses.size(); ++i) {
         Clearance alone;
-        ASSERT_TRUE(scene.world().find_clearances(query, {&poses[i], 1}, {&alone, 1}).ok());
+        ASSERT_TRUE(
+            scene.world().find_clearances(query, {&poses[i], 1}, {&alone, 1}, options).ok());
         EXPECT_TRUE(equal(on_paths[i], alone))
             << "pose " << i << ": " << on_paths[i].distance << " instead of " << alone.distance;
     }
@@ -375,11 +378,10 @@ TEST(WorldClearances, DoNotTellOfWhatWasNearestBefore) {
     Scene scene({{"near", square, {{2.0, 0.0}, 0.0}}, {"far", square, {{5.0, 0.0}, 0.0}}});
     const ShapeHandle own = scene.add_shape(square);
     const auto expect = [&](const WorldFilter& filter, InstanceHandle instance, double distance) {
-        ClearanceQuery query{.shape = own};
-        query.filter = filter;
         const Pose pose{};
         Clearance clearance;
-        const Status status = scene.world().find_clearances(query, {&pose, 1}, {&clearance, 1});
+        const Status status =
+            scene.world().find_clearances({own}, {&pose, 1}, {&clearance, 1}, {.filter = filter});
         ASSERT_TRUE(status.ok()) << status.text();
         EXPECT_EQ(clearance.instance, instance);
         EXPECT_EQ(clearance.distance, distance);

@@ -129,8 +129,8 @@ TEST_P(WorldRays, HitWhatTheBruteForceHits) {
         }
         RayHits all;
         std::vector<RayHit> hits(segments.size());
-        ASSERT_TRUE(scene.world().cast_rays(segments, all, filter).ok());
-        ASSERT_TRUE(scene.world().cast_rays(segments, hits, filter).ok());
+        ASSERT_TRUE(scene.world().cast_rays(segments, all, {.filter = filter}).ok());
+        ASSERT_TRUE(scene.world().cast_rays(segments, hits, {.filter = filter}).ok());
         ASSERT_EQ(all.offsets.size(), segments.size() + 1);
         ASSERT_EQ(all.offsets.back(), all.hits.size());
         for (std::size_t i = 0; i < segments.size(); ++i) {

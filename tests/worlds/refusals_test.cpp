@@ -69,11 +69,11 @@ TEST_F(WorldRefusals, OfPoses) {
             const InstanceHandle both[] = {scene_.handle(1), first};
             const Pose other[] = {{{9.0, 9.0}, 1.0}, pose};
             expect(world().move(both, other), StatusCode::invalid_query, "move");
-            expect(world().test_poses({item_}, poses, intersects), StatusCode::invalid_query,
+            expect(world().test_poses(item_, poses, intersects), StatusCode::invalid_query,
                    "test_poses");
             expect(world().find_clearances({item_}, poses, clearances), StatusCode::invalid_query,
                    "find_clearances");
-            expect(world().find_overlaps({item_, {}}, poses, lists), StatusCode::invalid_query,
+            expect(world().find_overlaps(item_, poses, lists), StatusCode::invalid_query,
                    "find_overlaps");
             ShapeCastQuery cast{item_};
             cast.tolerance = 1e-3;
@@ -130,7 +130,7 @@ TEST_F(WorldRefusals, OfSpansOfDifferentLength) {
         std::vector<ShapeCastHit> casts(space);
         const std::vector<InstanceHandle> handles(space, scene_.handle(0));
         expect(world().move(handles, poses), StatusCode::invalid_query, "3 poses");
-        expect(world().test_poses({item_}, poses, intersects), StatusCode::invalid_query, "3");
+        expect(world().test_poses(item_, poses, intersects), StatusCode::invalid_query, "3");
         expect(world().find_clearances({item_}, poses, clearances), StatusCode::invalid_query, "3");
         expect(world().find_nearest({}, points, nearest), StatusCode::invalid_query, "3");
         expect(world().cast_rays(segments, hits), StatusCode::invalid_query, "3");
@@ -165,17 +165,17 @@ TEST_F(WorldRefusals, OfNumbersInQueries) {
                                 {nan_value, 1.0},    {0.0, nan_value}, {-2.0, -1.0},
                                 {infinity, infinity}};
     for (const auto& [low, high] : ranges) {
-        expect(world().find_clearances({item_, {}, low, high}, poses, clearances),
+        expect(world().find_clearances({item_, low, high}, poses, clearances),
                StatusCode::invalid_query, "find_clearances");
     }
     const std::vector<Sweep> sweeps(1);
     std::vector<ShapeCastHit> casts(1);
     for (const double bad : {0.0, -1.0, nan_value, infinity, 2.0 * largest_coordinate}) {
-        expect(world().cast_shape({item_, {}, bad, 0.0}, sweeps, casts), StatusCode::invalid_query,
+        expect(world().cast_shape({item_, bad, 0.0}, sweeps, casts), StatusCode::invalid_query,
                "tolerance");
     }
     for (const double bad : {-1.0, nan_value, infinity, 2.0 * largest_coordinate}) {
-        expect(world().cast_shape({item_, {}, 1e-3, bad}, sweeps, casts), StatusCode::invalid_query,
+        expect(world().cast_shape({item_, 1e-3, bad}, sweeps, casts), StatusCode::invalid_query,
                "contact distance");
     }
 }
@@ -194,10 +194,10 @@ TEST_F(WorldRefusals, OfShapesThatAreNotThere) {
     for (const ShapeHandle shape : {removed, ShapeHandle(), ShapeHandle{77, 0}}) {
         constexpr StatusCode code = StatusCode::unknown_shape;
         expect(world().add({shape, {}}).error(), code, "add");
-        expect(world().test_poses({shape}, poses, intersects), code, "test_poses");
+        expect(world().test_poses(shape, poses, intersects), code, "test_poses");
         expect(world().find_clearances({shape}, poses, clearances), code, "find_clearances");
-        expect(world().find_overlaps({shape, {}}, poses, lists), code, "find_overlaps");
-        expect(world().cast_shape({shape, {}, 1e-3}, sweeps, casts), code, "cast_shape");
+        expect(world().find_overlaps(shape, poses, lists), code, "find_overlaps");
+        expect(world().cast_shape({shape, 1e-3}, sweeps, casts), code, "cast_shape");
     }
 }
 
@@ -246,7 +246,7 @@ TEST_F(WorldRefusals, OfHandlesOfAnotherWorld) {
     expect(world().add({other.add_shape(rectangle({0, 0}, {1, 1})), {}}).error(),
            StatusCode::unknown_shape, "is of another context");
     // An instance to ignore, which would otherwise be another one here.
-    const WorldFilter filter{.ignored = foreign};
+    const WorldOptions options{.filter = {.ignored = foreign}};
     const std::vector<Pose> poses(1);
     const std::vector<Vector2> points(1);
     const std::vector<Segment> segments(1);
@@ -260,23 +260,23 @@ TEST_F(WorldRefusals, OfHandlesOfAnotherWorld) {
     RayHits all;
     InstanceLists lists;
     World& asked = world();
-    expect(asked.test_poses({item_, filter}, poses, intersects), code, "test_poses" + words);
-    expect(asked.find_clearances({item_, filter}, poses, clearances), code,
+    expect(asked.test_poses(item_, poses, intersects, options), code, "test_poses" + words);
+    expect(asked.find_clearances({item_}, poses, clearances, options), code,
            "find_clearances" + words);
-    expect(asked.find_nearest({.filter = filter}, points, nearest), code, "find_nearest" + words);
-    expect(asked.cast_rays(segments, rays, filter), code, "cast_rays" + words);
-    expect(asked.cast_rays(segments, all, filter), code, "cast_rays" + words);
-    expect(asked.cast_shape({item_, filter, 1e-3}, sweeps, casts), code, "cast_shape" + words);
-    expect(asked.find_overlaps(rectangles, lists, filter), code, "find_overlaps" + words);
-    expect(asked.find_overlaps(points, lists, filter), code, "find_overlaps" + words);
-    expect(asked.find_overlaps({item_, filter}, poses, lists), code, "find_overlaps" + words);
+    expect(asked.find_nearest({}, points, nearest, options), code, "find_nearest" + words);
+    expect(asked.cast_rays(segments, rays, options), code, "cast_rays" + words);
+    expect(asked.cast_rays(segments, all, options), code, "cast_rays" + words);
+    expect(asked.cast_shape({item_, 1e-3}, sweeps, casts, options), code, "cast_shape" + words);
+    expect(asked.find_overlaps(rectangles, lists, options), code, "find_overlaps" + words);
+    expect(asked.find_overlaps(points, lists, options), code, "find_overlaps" + words);
+    expect(asked.find_overlaps(item_, poses, lists, options), code, "find_overlaps" + words);
 }
 
 TEST_F(WorldRefusals, NothingIsAskedOfNothing) {
     RayHits rays;
     InstanceLists lists;
     EXPECT_TRUE(world().move(std::span<const InstanceHandle>(), {}).ok());
-    EXPECT_TRUE(world().test_poses({item_}, {}, {}).ok());
+    EXPECT_TRUE(world().test_poses(item_, {}, {}).ok());
     PairTable tests(IntersectionTestQuery{}, of_list);
     EXPECT_TRUE(world().update(tests).ok());
     EXPECT_TRUE(tests.rows().empty());
@@ -285,7 +285,7 @@ TEST_F(WorldRefusals, NothingIsAskedOfNothing) {
     EXPECT_TRUE(world().find_nearest(ShapeNearestQuery{item_}, {}, {}).ok());
     EXPECT_TRUE(world().cast_rays({}, std::span<RayHit>()).ok());
     EXPECT_TRUE(world().cast_rays({}, rays).ok());
-    EXPECT_TRUE(world().cast_shape({item_, {}, 1e-3}, {}, {}).ok());
+    EXPECT_TRUE(world().cast_shape({item_, 1e-3}, {}, {}).ok());
     EXPECT_TRUE(world().find_overlaps(std::span<const Vector2>(), lists).ok());
     EXPECT_EQ(rays.offsets, std::vector<std::uint32_t>{0});
     EXPECT_EQ(lists.offsets, std::vector<std::uint32_t>{0});

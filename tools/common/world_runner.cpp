@@ -107,7 +107,10 @@ void WorldRunner::add_world(Context& context, std::size_t first_group) {
 
 Status WorldRunner::answer(std::size_t query, const Limits& limits, Timings& timings) {
     Entry& entry = entries_[query];
-    const Call call{worlds_[entry.group / groups_per_world], limits, timings};
+    const WorldOptions options{.filter = entry.filter,
+                               .limits = limits,
+                               .technique = answering_technique(*entry.answer.request)};
+    const Call call{worlds_[entry.group / groups_per_world], options, timings};
     switch (entry.answer.request->type) {
         case WorldQueryType::poses:
             return answer_poses(call, entry);
@@ -128,13 +131,15 @@ ShapeHandle WorldRunner::shape_of(const Entry& entry) const {
 }
 
 /// Halves the parts until one submission takes them: how many that are depends on memory.
-template <class Device, class Input, class Output, class Ask>
-Status WorldRunner::ask_device(ByDevice<Device>& by, Timings& timings,
-                               std::span<const Input> inputs, std::span<Output> outputs,
-                               const Ask& ask) {
+template <class Input, class Output, class Submit>
+Status WorldRunner::ask_device(ByDevice& by, const Call& call, std::span<const Input> inputs,
+                               std::span<Output> outputs, const Submit& submit) {
     for (std::size_t first = 0; first < inputs.size();) {
         const std::size_t count = std::min(by.part, inputs.size() - first);
-        Status status = ask(by.device, inputs.subspan(first, count), outputs.subspan(first, count));
+        Status status = submit(by.request, inputs.subspan(first, count));
+        if (status.ok()) {
+            status = by.request.collect(outputs.subspan(first, count), call.options.limits);
+        }
         if (status.code() == StatusCode::too_large && count > 1) {
             by.part = count / 2;
             continue;
@@ -142,7 +147,7 @@ Status WorldRunner::ask_device(ByDevice<Device>& by, Timings& timings,
         if (!status.ok()) {
             return status;
         }
-        add_timings(by.device.timings(), timings);
+        add_timings(by.request.timings(), call.timings);
         first += count;
     }
     return {};
@@ -156,21 +161,19 @@ Status WorldRunner::answer_poses(const Call& call, Entry& entry) const {
         clearances.resize(request.poses.size());
         ClearanceQuery query;
         query.shape = shape_of(entry);
-        query.filter = entry.filter;
         query.min_clearance = request.min_clearance;
         query.max_clearance = request.max_clearance;
-        return world.find_clearances(query, request.poses, clearances, call.limits);
+        return world.find_clearances(query, request.poses, clearances, call.options);
     }
     auto& intersects = become<std::vector<std::uint8_t>>(entry.answer.records);
     intersects.resize(request.poses.size());
-    const PoseTestQuery query{shape_of(entry), entry.filter};
-    if (answering_technique(request) == Technique::cpu) {
-        return world.test_poses(query, request.poses, intersects, call.limits);
+    const ShapeHandle shape = shape_of(entry);
+    if (call.options.technique == Technique::cpu) {
+        return world.test_poses(shape, request.poses, intersects, call.options);
     }
-    return ask_device(call.world.tests, call.timings, std::span<const Pose>(request.poses),
-                      std::span(intersects),
-                      [&](DevicePoseTests& device, auto poses, auto results) {
-                          return world.test_poses(device, query, poses, results, call.limits);
+    return ask_device(call.world.tests, call, std::span<const Pose>(request.poses),
+                      std::span(intersects), [&](nearfield::WorldRequest& by, auto poses) {
+                          return world.submit(by, shape, poses, call.options);
                       });
 }
 
@@ -225,32 +228,31 @@ Status WorldRunner::answer_nearest(const Call& call, Entry& entry) {
     const std::uint32_t count = wanted_hits(entry);
     const auto by_cpu = [&](const auto& query) {
         return [&](auto inputs, auto hits) {
-            return world.find_nearest(query, inputs, hits, call.limits);
+            return world.find_nearest(query, inputs, hits, call.options);
         };
     };
     if (request.shape && request.kind == NearestKind::edges) {
-        const ShapeEdgeQuery query{shape_of(entry), entry.filter, count, request.max_distance};
+        const ShapeEdgeQuery query{shape_of(entry), count, request.max_distance};
         return write_nearest(std::span<const Pose>(request.poses), count, edges_near_shape_,
                              become<NearestLists<ShapeEdgeHit>>(entry.answer.records),
                              by_cpu(query));
     }
     if (request.shape) {
-        const ShapeNearestQuery query{shape_of(entry), entry.filter, count, request.max_distance};
+        const ShapeNearestQuery query{shape_of(entry), count, request.max_distance};
         return write_nearest(std::span<const Pose>(request.poses), count, nearest_of_shape_,
                              become<NearestLists<Clearance>>(entry.answer.records), by_cpu(query));
     }
-    const NearestQuery query{count, request.kind, request.max_distance, entry.filter};
+    const NearestQuery query{count, request.kind, request.max_distance};
     const std::span<const Vector2> points(request.points);
     auto& lists = become<NearestLists<NearestHit>>(entry.answer.records);
-    if (answering_technique(request) == Technique::cpu) {
+    if (call.options.technique == Technique::cpu) {
         return write_nearest(points, count, nearest_, lists, by_cpu(query));
     }
     return write_nearest(
         points, count, nearest_, lists, [&](auto some, std::span<NearestHit> hits) {
-            return ask_device(call.world.nearest, call.timings, some, hits,
-                              [&](DeviceNearest& device, auto inputs, auto outputs) {
-                                  return world.find_nearest(device, query, inputs, outputs,
-                                                            call.limits);
+            return ask_device(call.world.nearest, call, some, hits,
+                              [&](nearfield::WorldRequest& by, auto inputs) {
+                                  return world.submit(by, query, inputs, call.options);
                               });
         });
 }
@@ -260,17 +262,16 @@ Status WorldRunner::answer_rays(const Call& call, Entry& entry) const {
     World& world = call.world.world;
     if (request.all_hits) {
         return world.cast_rays(request.segments, become<RayHits>(entry.answer.records),
-                               entry.filter, call.limits);
+                               call.options);
     }
     auto& hits = become<std::vector<RayHit>>(entry.answer.records);
     hits.resize(request.segments.size());
-    if (answering_technique(request) == Technique::cpu) {
-        return world.cast_rays(request.segments, hits, entry.filter, call.limits);
+    if (call.options.technique == Technique::cpu) {
+        return world.cast_rays(request.segments, hits, call.options);
     }
-    return ask_device(call.world.rays, call.timings, std::span<const Segment>(request.segments),
-                      std::span(hits), [&](DeviceRays& device, auto segments, auto results) {
-                          return world.cast_rays(device, segments, results, entry.filter,
-                                                 call.limits);
+    return ask_device(call.world.rays, call, std::span<const Segment>(request.segments),
+                      std::span(hits), [&](nearfield::WorldRequest& by, auto segments) {
+                          return world.submit(by, segments, call.options);
                       });
 }
 
@@ -280,10 +281,9 @@ Status WorldRunner::answer_cast(const Call& call, Entry& entry) const {
     hits.resize(request.sweeps.size());
     ShapeCastQuery query;
     query.shape = shape_of(entry);
-    query.filter = entry.filter;
     query.tolerance = request.tolerance;
     query.contact_distance = request.contact_distance;
-    return call.world.world.cast_shape(query, request.sweeps, hits, call.limits);
+    return call.world.world.cast_shape(query, request.sweeps, hits, call.options);
 }
 
 Status WorldRunner::answer_overlap(const Call& call, Entry& entry) const {
@@ -291,15 +291,12 @@ Status WorldRunner::answer_overlap(const Call& call, Entry& entry) const {
     World& world = call.world.world;
     auto& lists = become<InstanceLists>(entry.answer.records);
     if (request.shape) {
-        return world.find_overlaps({shape_of(entry), entry.filter}, request.poses, lists,
-                                   call.limits);
+        return world.find_overlaps(shape_of(entry), request.poses, lists, call.options);
     }
     if (!request.points.empty()) {
-        return world.find_overlaps(std::span<const Vector2>(request.points), lists, entry.filter,
-                                   call.limits);
+        return world.find_overlaps(std::span<const Vector2>(request.points), lists, call.options);
     }
-    return world.find_overlaps(std::span<const Rectangle>(request.rectangles), lists, entry.filter,
-                               call.limits);
+    return world.find_overlaps(std::span<const Rectangle>(request.rectangles), lists, call.options);
 }
 
 }  // namespace nearfield::tools

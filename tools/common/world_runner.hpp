@@ -2,7 +2,7 @@
 
 #include <nearfield/timings.hpp>
 #include <nearfield/world.hpp>
-#include <nearfield/world_device_queries.hpp>
+#include <nearfield/world_request.hpp>
 
 #include <tools/io/world_answer.hpp>
 
@@ -33,10 +33,9 @@ public:
     }
 
 private:
-    /// What asks the device, and how many inputs at a time.
-    template <class Device>
+    /// What asks the device about inputs of one kind, and how many at a time.
     struct ByDevice {
-        Device device = {};
+        nearfield::WorldRequest request = {};
         std::size_t part = std::size_t{1} << 20U;
     };
     /// A world, whose filters distinguish a limited number of groups.
@@ -44,14 +43,14 @@ private:
         World world;
         std::vector<InstanceHandle> handles;  ///< by index into Scene::instances
         std::vector<std::size_t> instances;   ///< indices into it, by InstanceHandle::index
-        ByDevice<DevicePoseTests> tests = {};
-        ByDevice<DeviceNearest> nearest = {};
-        ByDevice<DeviceRays> rays = {};
+        ByDevice tests = {};
+        ByDevice nearest = {};
+        ByDevice rays = {};
     };
     /// What one call of answer() is given.
     struct Call {
         GroupedWorld& world;
-        const Limits& limits;
+        const WorldOptions& options;
         Timings& timings;
     };
     /// What a query needs.
@@ -71,12 +70,12 @@ private:
     [[nodiscard]] Status answer_rays(const Call& call, Entry& entry) const;
     [[nodiscard]] Status answer_cast(const Call& call, Entry& entry) const;
     [[nodiscard]] Status answer_overlap(const Call& call, Entry& entry) const;
-    /// Has the device answer inputs, as many at a time as it takes: `ask(device, inputs, outputs)`
-    /// does so for some of them.
-    template <class Device, class Input, class Output, class Ask>
-    [[nodiscard]] static Status ask_device(ByDevice<Device>& by, Timings& timings,
+    /// Has the device answer inputs, as many at a time as it takes: `submit(request, inputs)` asks
+    /// about some of them.
+    template <class Input, class Output, class Submit>
+    [[nodiscard]] static Status ask_device(ByDevice& by, const Call& call,
                                            std::span<const Input> inputs, std::span<Output> outputs,
-                                           const Ask& ask);
+                                           const Submit& submit);
     /// Finds those of points, or of a shape at poses: `find(inputs, hits)` finds `count` hits each.
     /// `scratch`: of some of them at a time, with what was not found.
     template <class Input, class Hit, class Find>

@@ -59,7 +59,7 @@ void ask_of_shape(World& world, ShapeHandle shape, Integers& integers, AnswerHas
         sweeps.push_back({start, any_pose(integers)});
     }
     std::vector<std::uint8_t> intersects(poses.size());
-    tools::require(world.test_poses({shape}, poses, intersects));
+    tools::require(world.test_poses(shape, poses, intersects));
     hash.add(intersects);
     std::vector<Clearance> clearances(poses.size());
     tools::require(world.find_clearances({.shape = shape}, poses, clearances));
@@ -75,7 +75,7 @@ void ask_of_shape(World& world, ShapeHandle shape, Integers& integers, AnswerHas
     tools::require(world.cast_shape({.shape = shape, .tolerance = 1e-4}, sweeps, casts));
     hash.add(casts);
     InstanceLists lists;
-    tools::require(world.find_overlaps(PoseTestQuery{shape}, poses, lists));
+    tools::require(world.find_overlaps(shape, poses, lists));
     hash.add(lists);
 }
 

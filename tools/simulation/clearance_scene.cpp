@@ -80,18 +80,21 @@ ClearanceQuery ClearanceScene::query() const {
     ClearanceQuery query{.shape = shape_};
     query.min_clearance = min_clearance_;
     query.max_clearance = max_clearance_;
-    if (moving_obstacle_) {
-        query.filter.ignored = obstacles_[*moving_obstacle_].instance;
-    }
     return query;
+}
+
+WorldFilter ClearanceScene::filter() const {
+    return {.ignored =
+                moving_obstacle_ ? obstacles_[*moving_obstacle_].instance : InstanceHandle()};
 }
 
 void ClearanceScene::ask() {
     poses_.clear();
     list_poses(poses_);
     clearances_.resize(poses_.size());
-    frame_.milliseconds = benchmark::milliseconds_of(
-        [this] { tools::require(world_.find_clearances(query(), poses_, clearances_)); });
+    frame_.milliseconds = benchmark::milliseconds_of([this] {
+        tools::require(world_.find_clearances(query(), poses_, clearances_, {.filter = filter()}));
+    });
     least_.clear();
     frame_.free_paths = 0;
     for (std::size_t first = 0; first < poses_.size(); first += poses_a_path_) {

@@ -69,6 +69,8 @@ public:
 
     /// What the last frame asked: this query at these poses, path by path; and what it found.
     [[nodiscard]] ClearanceQuery query() const;
+    /// The instances that it considers: all but the one that moves.
+    [[nodiscard]] WorldFilter filter() const;
     [[nodiscard]] std::span<const Pose> poses() const { return poses_; }
     [[nodiscard]] std::span<const Clearance> clearances() const { return clearances_; }
     [[nodiscard]] const ClearanceFrame& frame() const { return frame_; }

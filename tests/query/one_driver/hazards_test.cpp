@@ -116,21 +116,19 @@ protected:
                                          .pose = {{0.5 * i, 0.0}, 0.1 * i}};
             ASSERT_TRUE(world->add(instance).has_value());
         }
-        DeviceRays rays;
-        DeviceNearest nearest;
+        const WorldOptions by_device{.technique = Technique::compute};
         const std::vector<Segment> segments(100, Segment{{-5.0, 0.1}, {50.0, 0.2}});
         const std::vector<Vector2> points(100, Vector2{1.0, 0.1});
         std::vector<RayHit> hits(segments.size());
         std::vector<NearestHit> near(points.size());
         for (int i = 0; i < 2; ++i) {
-            EXPECT_TRUE(world->cast_rays(rays, segments, hits).ok());
-            EXPECT_TRUE(world->find_nearest(nearest, {}, points, near).ok());
+            EXPECT_TRUE(world->cast_rays(segments, hits, by_device).ok());
+            EXPECT_TRUE(world->find_nearest({}, points, near, by_device).ok());
         }
         EXPECT_NE(hits.front().instance, InstanceHandle{});
-        DevicePoseTests tests;
         const std::vector<Pose> poses(100, Pose{{1.0, 0.1}, 0.2});
         std::vector<std::uint8_t> meets(poses.size());
-        EXPECT_TRUE(world->test_poses(tests, {.shape = b_}, poses, meets).ok());
+        EXPECT_TRUE(world->test_poses(b_, poses, meets, by_device).ok());
         EXPECT_EQ(meets.front(), 1);
     }
 

@@ -27,11 +27,11 @@ protected:
         Expected<World> world = World::create(*context);
         EXPECT_TRUE(world.has_value()) << world.error().text();
         PairTable<PenetrationQuery> table({.tolerance = 0.05}, on_device);
-        DeviceRays rays;
-        DeviceNearest nearest;
+        WorldRequest rays;
+        WorldRequest near_points;
         for (int i = 0; i < 2; ++i) {
             add_pairs(*world, {a, b}, table, numbers);
-            add_hits(*world, a, rays, nearest, numbers);
+            add_hits(*world, a, rays, near_points, numbers);
             Results results;
             const Status status = context->run(every_query(a, b, i, false), results);
             EXPECT_TRUE(status.ok()) << status.text();
@@ -43,8 +43,9 @@ protected:
     }
 
     /// What rays hit, what is near their starts, and whether a shape there meets anything.
-    static void add_hits(World& world, ShapeHandle shape, DeviceRays& rays, DeviceNearest& nearest,
-                         std::vector<double>& numbers) {
+    static void add_hits(World& world, ShapeHandle shape, WorldRequest& rays,
+                         WorldRequest& near_points, std::vector<double>& numbers) {
+        const WorldOptions by_device{.technique = Technique::compute};
         std::vector<Segment> segments;
         std::vector<Vector2> points;
         for (int i = 0; i < 100; ++i) {
@@ -53,17 +54,17 @@ protected:
         }
         std::vector<RayHit> hits(segments.size());
         std::vector<NearestHit> near(points.size());
-        EXPECT_TRUE(world.cast_rays(rays, segments, hits).ok());
-        EXPECT_TRUE(world.find_nearest(nearest, {}, points, near).ok());
-        EXPECT_EQ(rays.left_to_cpu() + nearest.left_to_cpu(), 0U);
-        DevicePoseTests tests;
+        EXPECT_TRUE(world.submit(rays, segments, by_device).ok());
+        EXPECT_TRUE(rays.collect(hits).ok());
+        EXPECT_TRUE(world.submit(near_points, {}, points, by_device).ok());
+        EXPECT_TRUE(near_points.collect(near).ok());
+        EXPECT_EQ(rays.left_to_cpu() + near_points.left_to_cpu(), 0U);
         std::vector<Pose> poses;
         for (const Vector2& point : points) {
             poses.push_back({point, point.y});
         }
         std::vector<std::uint8_t> meets(poses.size());
-        const PoseTestQuery query{.shape = shape};
-        EXPECT_TRUE(world.test_poses(tests, query, poses, meets).ok());
+        EXPECT_TRUE(world.test_poses(shape, poses, meets, by_device).ok());
         numbers.insert(numbers.end(), meets.begin(), meets.end());
         for (std::size_t i = 0; i < hits.size(); ++i) {
             numbers.push_back(hits[i].parameter);

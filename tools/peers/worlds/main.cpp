@@ -62,7 +62,7 @@ public:
         if (problem_.asks_distances) {
             require(world_.find_clearances({.shape = item_}, inputs.poses, clearances_));
         } else if (!inputs.poses.empty()) {
-            require(world_.test_poses({.shape = item_}, inputs.poses, intersects_));
+            require(world_.test_poses(item_, inputs.poses, intersects_));
         } else if (!inputs.points.empty()) {
             require(world_.find_nearest({}, inputs.points, nearest_));
         } else {

@@ -1,8 +1,9 @@
 // How the rows of pairs that the device found are read.
 
-#include <engine/context/device_pairs.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/point_search.hpp>
+#include <engine/world/checks.hpp>
+#include <engine/world/device_pairs.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -4,15 +4,15 @@
 #include <engine/base/jobs.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/context/call_within.hpp>
-#include <engine/context/pair_row.hpp>
-#include <engine/context/pair_table_state.hpp>
-#include <engine/context/world_checks.hpp>
-#include <engine/context/world_implementation.hpp>
 #include <engine/cpu/point_penetration.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/world/checks.hpp>
 #include <engine/world/motions.hpp>
 #include <engine/world/pair_list.hpp>
+#include <engine/world/pair_row.hpp>
+#include <engine/world/pair_table_state.hpp>
+#include <engine/world/world_state.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -835,22 +835,21 @@ template class PairTable<ContainmentQuery>;
 template class PairTable<TimeOfImpactQuery>;
 
 Status World::update(PairTableBase& table, const PairTableInput& input, const Limits& limits) {
-    return catch_within(limits, [&] { table.state_->update(implementation_->view(), input); });
+    return catch_within(limits, [&] { table.state_->update(state_->view(), input); });
 }
 
 Status World::submit(PairTableBase& table, const PairTableInput& input, const Limits& limits) {
-    return catch_within(limits, [&] { table.state_->submit(implementation_->view(), input); });
+    return catch_within(limits, [&] { table.state_->submit(state_->view(), input); });
 }
 
 Status World::record(PairTableBase& table, const Recording& recording, const PairTableInput& input,
                      const Limits& limits) {
-    return catch_within(limits, [&] {
-        table.state_->record(implementation_->view(), input, read_versioned(recording));
-    });
+    return catch_within(
+        limits, [&] { table.state_->record(state_->view(), input, read_versioned(recording)); });
 }
 
 bool World::is_recorded(const PairTableBase& table) const noexcept {
-    return table.state_->is_recorded(implementation_->view());
+    return table.state_->is_recorded(state_->view());
 }
 
 }  // namespace nearfield

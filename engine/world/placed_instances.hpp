@@ -1,8 +1,8 @@
 #pragma once
 
 #include <engine/base/prefetch.hpp>
-#include <engine/context/device_instances.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
+#include <engine/world/device_instances.hpp>
 
 #include <atomic>
 #include <cstddef>

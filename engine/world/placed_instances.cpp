@@ -1,5 +1,5 @@
-#include <engine/context/placed_instances.hpp>
 #include <engine/localize/hierarchy.hpp>
+#include <engine/world/placed_instances.hpp>
 
 namespace nearfield {
 

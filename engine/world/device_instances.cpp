@@ -1,10 +1,10 @@
 #include <engine/base/interruption.hpp>
-#include <engine/context/device_instances.hpp>
 #include <engine/geometry/angle_kernels.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/point_search.hpp>
+#include <engine/world/device_instances.hpp>
 
 #include <algorithm>
 #include <array>

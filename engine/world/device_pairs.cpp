@@ -2,12 +2,12 @@
 
 #include <engine/base/interruption.hpp>
 #include <engine/base/stopwatch.hpp>
-#include <engine/context/device_pairs.hpp>
-#include <engine/context/world_checks.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/pair_search.hpp>
+#include <engine/world/checks.hpp>
+#include <engine/world/device_pairs.hpp>
 #include <nearfield/portable_math.hpp>
 
 #include <algorithm>

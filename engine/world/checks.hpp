@@ -3,11 +3,13 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/world/instances.hpp>
+#include <nearfield/query.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/world.hpp>
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -17,6 +19,19 @@ namespace nearfield {
 
 [[noreturn]] inline void refuse(const char* call, const std::string& why) {
     throw StatusException({StatusCode::invalid_query, std::string(call) + ": " + why});
+}
+
+[[noreturn]] inline void refuse_technique(const char* call, Technique technique) {
+    throw StatusException({StatusCode::unsupported_technique,
+                           std::string(call) + ": Technique::" + to_string(technique) +
+                               " does not answer this question of a world; Technique::cpu does"});
+}
+
+/// Refuses techniques other than the CPU's, which alone answers a call.
+inline void require_cpu(const char* call, Technique technique) {
+    if (technique != Technique::cpu && technique != Technique::automatic) {
+        refuse_technique(call, technique);
+    }
 }
 
 inline void require_lengths(const char* call, const char* what, std::size_t in, std::size_t out) {
@@ -64,17 +79,21 @@ inline void require_segments(const char* call, std::span<const Segment> segments
     }
 }
 
+/// Of find_nearest(). `inputs`: the number of poses or points; `hits`: of entries in the caller's
+/// memory.
+inline void require_room_for_nearest(const char* call, std::uint32_t count, const char* what,
+                                     std::size_t inputs, std::size_t hits) {
+    if (count == 0 || hits / count != inputs || hits % count != 0) {
+        refuse(call, "there are " + std::to_string(inputs) + " " + what + ", " +
+                         std::to_string(count) + " hits are wanted of each, and " +
+                         std::to_string(hits) + " have space");
+    }
+}
+
 inline void require_reach_of_nearest(double max_distance) {
     if (!(max_distance >= 0.0)) {
         refuse("find_nearest", "the largest distance is " + geometry::number(max_distance) +
                                    "; it must be at least 0");
-    }
-}
-
-inline void require_nearest_query(const NearestQuery& query) {
-    require_reach_of_nearest(query.max_distance);
-    if (query.kind != NearestKind::instances && query.kind != NearestKind::edges) {
-        refuse("find_nearest", "the kind is no enumerator");
     }
 }
 

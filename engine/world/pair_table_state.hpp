@@ -1,7 +1,7 @@
 #pragma once
 
-#include <engine/context/device_pairs.hpp>
-#include <engine/context/world_view.hpp>
+#include <engine/world/device_pairs.hpp>
+#include <engine/world/world_view.hpp>
 #include <nearfield/world_pairs.hpp>
 
 #include <cstdint>

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <engine/context/device_instances.hpp>
 #include <engine/context/implementation.hpp>
-#include <engine/context/pair_row.hpp>
 #include <engine/cpu/intersection_test.hpp>
 #include <engine/decode/contacts.hpp>
 #include <engine/plan/pair_question.hpp>
@@ -10,7 +8,9 @@
 #include <engine/records/found_contacts.hpp>
 #include <engine/records/point_resolver.hpp>
 #include <engine/render/pair_search_buffers.hpp>
+#include <engine/world/device_instances.hpp>
 #include <engine/world/instances.hpp>
+#include <engine/world/pair_row.hpp>
 #include <nearfield/device_poses.hpp>
 #include <nearfield/resident_pairs.hpp>
 #include <nearfield/submission.hpp>

@@ -1,0 +1,129 @@
+// A world itself: its instances, and what its other members share.
+
+#include <engine/base/unknown_shape.hpp>
+#include <engine/context/call_within.hpp>
+#include <engine/world/checks.hpp>
+#include <engine/world/world_state.hpp>
+
+#include <string>
+#include <utility>
+
+namespace nearfield {
+World::State::State(Context::Implementation& of)
+    : context(&of), jobs(of.jobs()), scratch(jobs.count()) {}
+
+void World::State::prepare() {
+    view().prepare();
+}
+
+void World::State::prepare(const WorldFilter& filter, const char* call) {
+    instances.require_own(filter.ignored, call);
+    prepare();
+}
+
+const geometry::Polygon& World::State::shape(ShapeHandle handle, const char* call) const {
+    const geometry::Polygon* const polygon = context->shapes().find(handle);
+    if (polygon == nullptr) {
+        throw StatusException(unknown_shape(call, handle, context->shapes().context()));
+    }
+    return *polygon;
+}
+
+void World::State::run_batch() {
+    Status status = context->run(batch, results);
+    if (!status.ok()) {
+        throw StatusException(status);
+    }
+    checkpoint();  // what was cut must not look whole
+}
+
+World::World(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+Expected<World> World::create(Context& context) {
+    std::unique_ptr<State> state;
+    Status status =
+        catch_to_status([&] { state = std::make_unique<State>(*context.implementation_); });
+    if (!status.ok()) {
+        return status;
+    }
+    return World(std::move(state));
+}
+
+Expected<InstanceHandle> World::add(const WorldInstance& instance) {
+    InstanceHandle handle;
+    Status status = catch_to_status([&] {
+        static_cast<void>(state_->shape(instance.shape, "add"));
+        if (Status bad_pose = plan::check_pose(instance.pose, "the instance"); !bad_pose.ok()) {
+            refuse("add", bad_pose.message());
+        }
+        handle = state_->instances.add(instance);
+    });
+    return status.ok() ? Expected<InstanceHandle>(handle) : status;
+}
+
+Status World::move(InstanceHandle instance, const Pose& pose) {
+    return move(std::span(&instance, 1), std::span(&pose, 1));
+}
+
+Status World::move(std::span<const InstanceHandle> instances, std::span<const Pose> poses) {
+    return catch_to_status([&] {
+        require_moves("move", state_->instances, instances, poses);
+        state_->instances.move(instances, poses);
+    });
+}
+
+Status World::set_filter(InstanceHandle instance, std::uint32_t category, std::uint32_t mask) {
+    return catch_to_status([&] {
+        world::Instances& all = state_->instances;
+        all.set_filter(all.find(instance, "set_filter"), category, mask);
+    });
+}
+
+Status World::remove(InstanceHandle instance) {
+    return catch_to_status([&] {
+        world::Instances& all = state_->instances;
+        all.remove(all.find(instance, "remove"));
+    });
+}
+
+Expected<WorldInstance> World::instance(InstanceHandle instance) const {
+    WorldInstance found;
+    Status status = catch_to_status([&] {
+        const world::Instances& all = state_->instances;
+        found = all[all.find(instance, "instance")];
+    });
+    return status.ok() ? Expected<WorldInstance>(found) : status;
+}
+
+std::uint32_t World::size() const noexcept {
+    return state_->instances.count();
+}
+
+std::uint64_t World::memory_use() const noexcept {
+    return sizeof(State) + state_->instances.bytes();
+}
+
+void World::trim() noexcept {
+    State& state = *state_;
+    state.instances.trim();
+    for (State::Job& job : state.scratch) {
+        job = State::Job();
+    }
+    state.batch = {};
+    state.results = {};
+    state.candidates = {};
+    state.hilbert_order = {};
+    state.ray_lists = {};
+    state.instance_lists = {};
+    state.candidate_lists = {};
+    state.candidate_offsets = {};
+    state.candidates_of_sweeps = {};
+    state.rays = {};
+    state.points = {};
+    state.poses = {};
+}
+
+}  // namespace nearfield
