@@ -78,17 +78,6 @@ void BatchRing::reserve(Frame& frame, const Batch& batch) {
     release(frame);
 }
 
-void BatchRing::require_unwritten(VkImage image) const {
-    for (const auto& frame : frames_) {
-        if (frame->runner.writes_to(image)) {
-            throw StatusException(
-                {StatusCode::not_ready, "release_target: the batch of ticket " +
-                                            std::to_string(frame->number) +
-                                            " writes to the image; collect it first"});
-        }
-    }
-}
-
 void BatchRing::trim() noexcept {
     for (const auto& frame : frames_) {
         if (frame->number == 0) {

@@ -68,8 +68,6 @@ public:
         }
         return layout;
     }
-    /// Throws StatusException (not_ready) if a batch in flight writes this image of the host.
-    void require_unwritten(VkImage image) const;
     /// Drops the device memory that no batch in flight uses.
     void trim() noexcept;
     /// Lists the tiles of the batch started last.

@@ -203,14 +203,6 @@ ResidentRecords BatchRunner::resident_records(std::uint32_t query) const {
     return slot_->resident().records(place_of(resident_.records, query));
 }
 
-bool BatchRunner::writes_to(VkImage image) const {
-    return submission_state() != render::SubmissionState::none &&
-           std::any_of(resident_.fields.begin(), resident_.fields.end(), [=](const auto& field) {
-               return field.target.signed_distance.image == image ||
-                      field.target.feature.image == image;
-           });
-}
-
 bool BatchRunner::is_done() {
     if (slot_ != nullptr && !slot_->is_done()) {
         return false;

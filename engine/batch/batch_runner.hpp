@@ -76,8 +76,6 @@ public:
     }
     /// Returns whether collect() would return without waiting for a submission.
     [[nodiscard]] bool is_done();
-    /// Returns whether commands that are not known to be finished write this image of the host.
-    [[nodiscard]] bool writes_to(VkImage image) const;
     /// Waits for the device and writes the results; recorded commands have to be done. Gradient
     /// normals of contacts are left to GradientNormals. If the call ends before, the results that
     /// are not done say so.

@@ -185,10 +185,6 @@ Expected<std::vector<ResidentSamples>> Context::resident_layout(
     return implementation_->resident_layout<ResidentSamples>(batch, query);
 }
 
-Status Context::release_target(VkImage image) {
-    return implementation_->release_target(image);
-}
-
 void Context::trim() noexcept {
     implementation_->trim();
 }

@@ -191,18 +191,6 @@ Status Context::Implementation::collect(Ticket ticket, Results& results) {
     return unless_lost([&] { machinery_->ring.collect(ticket, results); });
 }
 
-Status Context::Implementation::release_target(VkImage image) {
-    if (device_ == nullptr || image == VK_NULL_HANDLE) {
-        return {};
-    }
-    return catch_to_status([&] {
-        if (!lost_) {
-            machinery_->ring.require_unwritten(image);
-        }
-        machinery_->renderer->release_target(image);
-    });
-}
-
 void Context::Implementation::trim() noexcept {
     if (device_ == nullptr || lost_) {
         return;

@@ -82,7 +82,6 @@ public:
     }
 
     void trim() noexcept;
-    Status release_target(VkImage image);
 
     [[nodiscard]] const batch::BatchRing& ring() const { return machinery_->ring; }
     [[nodiscard]] batch::BatchRing& ring() { return machinery_->ring; }

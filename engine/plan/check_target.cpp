@@ -52,10 +52,6 @@ std::string size_text(std::uint64_t width, std::uint64_t height) {
     return std::to_string(width) + " x " + std::to_string(height);
 }
 
-std::uint32_t at_level(std::uint32_t side, std::uint32_t level) {
-    return std::max(1U, level < 32 ? side >> level : 0U);
-}
-
 // Messages are composed only after an error was found: a frame without errors allocates nothing.
 
 Status no_layout(std::string_view name, VkImageLayout layout, const char* when,
@@ -94,18 +90,6 @@ Status check_states(const TargetState& before, const TargetState& after, std::st
     return status.ok() ? check_state(after, name, "after") : status;
 }
 
-Status check_subresource(const ResidentImageTarget& target, std::string_view name) {
-    if (target.level >= target.levels) {
-        return refused(name, "is to be written at level " + std::to_string(target.level) +
-                                 " and has " + std::to_string(target.levels) + " levels");
-    }
-    if (target.layer >= target.layers) {
-        return refused(name, "is to be written at layer " + std::to_string(target.layer) +
-                                 " and has " + std::to_string(target.layers) + " layers");
-    }
-    return {};
-}
-
 Status check_image(const ResidentImageTarget& target, VkFormat format, std::string_view name) {
     if (target.format != format) {
         return refused(
@@ -118,8 +102,8 @@ Status check_image(const ResidentImageTarget& target, VkFormat format, std::stri
         return refused(name, "was created with the usage " + hexadecimal(target.usage) +
                                  ", which lacks VK_IMAGE_USAGE_STORAGE_BIT");
     }
-    if (Status status = check_subresource(target, name); !status.ok()) {
-        return status;
+    if (target.view == VK_NULL_HANDLE) {
+        return refused(name, "has no view to write through (ResidentImageTarget::view)");
     }
     if (Status status = check_states(target.before, target.after, name); !status.ok()) {
         return status;
@@ -137,13 +121,11 @@ Status check_image(const ResidentImageTarget& target, VkFormat format, std::stri
 
 Status check_size(const ResidentImageTarget& target, std::string_view name, std::uint64_t width,
                   std::uint64_t height) {
-    const std::uint32_t across = at_level(target.extent.width, target.level);
-    const std::uint32_t up = at_level(target.extent.height, target.level);
+    const auto [across, up] = target.extent;
     if (target.image == VK_NULL_HANDLE || (width <= across && height <= up)) {
         return {};
     }
-    return refused(name, "has " + size_text(across, up) + " texels at level " +
-                             std::to_string(target.level) + "; the field has " +
+    return refused(name, "has " + size_text(across, up) + " texels; the field has " +
                              size_text(width, height) + " cells");
 }
 

@@ -56,7 +56,7 @@ std::span<const Element> elements_at(const gpu::MappedBuffer& buffer, std::uint6
 }  // namespace
 
 BatchResources::BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
-                               TargetViews& views, bool timestamps)
+                               bool timestamps)
     : device_(&device),
       layout_(&layout),
       submission_(device),
@@ -67,7 +67,7 @@ BatchResources::BatchResources(const gpu::Device& device, const passes::ComputeL
                  gpu::Direction::readback, "nearfield read-back"),
       words_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
              gpu::Direction::none, "nearfield resident words"),
-      resident_(device, layout, views) {
+      resident_(device, layout) {
     make_room_for(1);
 }
 

@@ -62,7 +62,7 @@ class BatchResources {
 public:
     /// `views`: of images of the host; must outlive this. `timestamps`: the passes are timed.
     BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
-                   TargetViews& views, bool timestamps);
+                   bool timestamps);
     /// Waits for its own submission if the device is still working on it. Waiting for commands
     /// recorded for the host is up to the host.
     ~BatchResources();

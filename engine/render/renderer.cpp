@@ -53,7 +53,6 @@ Renderer::Renderer(const gpu::Device& device, const Settings& settings)
     : device_(&device),
       timestamps_(settings.timestamps),
       layout_(device),
-      target_views_(device),
       passes_(device, layout_),
       copy_back_(device) {
     if (!settings.pipelines_on_demand) {
@@ -66,7 +65,7 @@ const char* Renderer::gradient_format() const {
 }
 
 std::unique_ptr<BatchResources> Renderer::make_resources() {
-    return std::make_unique<BatchResources>(*device_, layout_, target_views_, timestamps_);
+    return std::make_unique<BatchResources>(*device_, layout_, timestamps_);
 }
 
 std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQuestion& question) {

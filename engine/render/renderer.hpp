@@ -102,7 +102,6 @@ public:
     /// Drops the compiled graphs, except those of batches in flight, until the next batch.
     void trim() noexcept;
     /// Destroys the views of an image of the host, which no batch on the device may write.
-    void release_target(VkImage image) { target_views_.release(image); }
 
     /// Prints the graphs of the last batch, one after the other, each with a title, or that of a
     /// later search for pairs or of other questions about a world; empty before the first.
@@ -119,7 +118,6 @@ private:
     std::uint32_t number_ = next_owner_number();
     bool timestamps_;
     passes::ComputeLayout layout_;
-    TargetViews target_views_;
     PipelineSet passes_;
     passes::CopyBack copy_back_;
     std::vector<std::shared_ptr<CompiledGraph>> graphs_;

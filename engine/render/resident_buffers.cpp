@@ -48,11 +48,9 @@ std::span<const VkDescriptorSet> take(std::span<const VkDescriptorSet>& sets, st
 
 }  // namespace
 
-ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
-                                 TargetViews& views)
+ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout)
     : device_(&device),
       layout_(&layout),
-      target_views_(&views),
       tables_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
               "nearfield export tables"),
       records_(device,
@@ -95,8 +93,8 @@ void ResidentBuffers::reserve_images() {
 }
 
 void ResidentBuffers::find_views() {
-    const auto view_of = [&](const ResidentImageTarget& target, const gpu::KeptImage& own) {
-        return target.image == VK_NULL_HANDLE ? own.view() : target_views_->of(target);
+    const auto view_of = [](const ResidentImageTarget& target, const gpu::KeptImage& own) {
+        return target.image == VK_NULL_HANDLE ? own.view() : target.view;
     };
     views_.clear();
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {

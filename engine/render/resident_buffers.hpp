@@ -9,7 +9,6 @@
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/compute_buffers.hpp>
 #include <engine/render/resident_targets.hpp>
-#include <engine/render/target_views.hpp>
 #include <nearfield/resident.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
@@ -30,8 +29,7 @@ namespace nearfield::render {
 class ResidentBuffers {
 public:
     /// `views`: of images of the host. They must outlive this.
-    ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
-                    TargetViews& views);
+    ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout);
 
     /// Allocates memory and uploads the tables. `resident` has to stay unchanged until the next
     /// upload. Must not be called while the device uses these buffers or the host uses the resident
@@ -111,7 +109,6 @@ private:
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
-    TargetViews* target_views_;
     const plan::ResidentOutputs* resident_ = nullptr;
     gpu::MappedBuffer tables_;
     gpu::MappedBuffer records_;

@@ -343,14 +343,6 @@ public:
     [[nodiscard]] Expected<std::vector<ResidentSamples>> resident_layout(
         const Batch& batch, QueryHandle<IntersectionQuery> query);
 
-    /// Ends the use of an image of the host (ResidentImageTarget), which may be destroyed after
-    /// this: destroys the library's views of it. Of an image that was no target, does nothing.
-    /// Until it is called, or the context is destroyed, a new image that gets the same handle would
-    /// be taken for the old one. Never waits.
-    ///
-    /// Fails with not_ready if a batch that is not yet collected writes to the image.
-    Status release_target(VkImage image);
-
     /// The device's name as reported by its driver; empty without a device.
     [[nodiscard]] const std::string& device_name() const noexcept;
 

@@ -68,18 +68,17 @@ inline constexpr TargetState former_readers{read_by_shaders.stages, read_by_shad
 /// texel, optimal tiling, on the context's device. Vulkan does not tell the library, which checks
 /// what is stated here.
 ///
-/// Borrowed. It must exist until the batch is collected. The library makes a view of the level and
-/// the layer for its own shaders when it first sees them and keeps it, so that an image that comes
-/// again costs nothing; call Context::release_target() before the image is destroyed.
+/// Borrowed: image and view must exist until the batch is collected. Nothing is kept of them.
 struct ResidentImageTarget {
-    VkImage image = VK_NULL_HANDLE;         ///< null: an image of nearfield's own
+    VkImage image = VK_NULL_HANDLE;  ///< null: an image of nearfield's own
+    /// What is written: one level and one layer of the image, as VK_IMAGE_VIEW_TYPE_2D, in `format`
+    /// and without a swizzle.
+    VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_UNDEFINED;  ///< as ResidentField states for each image
-    VkExtent2D extent{};                    ///< of level 0, texels
+    VkExtent2D extent{};                    ///< of the level, texels: as large as the field or larger
     VkImageUsageFlags usage = 0;            ///< contains VK_IMAGE_USAGE_STORAGE_BIT
-    std::uint32_t levels = 1;               ///< number of mip levels
-    std::uint32_t layers = 1;               ///< number of array layers
-    std::uint32_t level = 0;                ///< that is written, as large as the field or larger
-    std::uint32_t layer = 0;                ///< that is written
+    std::uint32_t level = 0;                ///< of `view`
+    std::uint32_t layer = 0;                ///< of `view`
     TargetState before = former_readers;    ///< default: what it holds is discarded
     TargetState after = read_by_shaders;    ///< needs VK_IMAGE_USAGE_SAMPLED_BIT as it is
 };
@@ -129,7 +128,7 @@ struct ResidentSlot {
 /// One image of a field, with a view of all of it.
 struct ResidentImage {
     VkImage image = VK_NULL_HANDLE;         ///< one layer, one level; borrowed. Or the host's
-    VkImageView view = VK_NULL_HANDLE;      ///< of the whole image, or the level written; borrowed
+    VkImageView view = VK_NULL_HANDLE;      ///< of the whole image, or the host's; borrowed
     VkFormat format = VK_FORMAT_UNDEFINED;  ///< of image and view
 };
 

@@ -58,6 +58,7 @@ public:
           before_(driver_.make_semaphore(true)),
           after_(driver_.make_semaphore(false)) {
         target_.signed_distance = {driver_.make_image(),
+                                   driver_.make_image_view(),
                                    VK_FORMAT_R32_SFLOAT,
                                    {4096, 4096},
                                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};

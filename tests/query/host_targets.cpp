@@ -14,7 +14,9 @@ constexpr VkImageUsageFlags image_usage =
 constexpr VkBufferUsageFlags buffer_usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                             VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-constexpr std::uint32_t written = 1;  // level, and layer
+// Of the image; the last ones are written.
+constexpr std::uint32_t levels = 2;
+constexpr std::uint32_t layers = 3;
 // A multiple of every minStorageBufferOffsetAlignment that Vulkan allows.
 constexpr std::uint64_t offset_in_buffer = 1024;
 
@@ -40,17 +42,19 @@ HostImage::HostImage(HostGpu& gpu, VkFormat format, VkExtent2D extent)
       extent_(extent),
       copied_(gpu.make_buffer(std::uint64_t{4} * extent.width * extent.height)) {
     target_.format = format;
-    target_.extent = {2 * extent.width + 1, 2 * extent.height + 1};
+    target_.extent = extent;
     target_.usage = image_usage;
-    target_.levels = 2;
-    target_.layers = 3;
-    target_.level = target_.layer = written;
+    target_.level = levels - 1;
+    target_.layer = layers - 1;
     target_.before = {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
     target_.after = {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT,
                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-    target_.image =
-        gpu.make_image(format, target_.extent, target_.usage, target_.levels, target_.layers).image;
+    const HostGpu::Image made =
+        gpu.make_image(format, {2 * extent.width + 1, 2 * extent.height + 1}, image_usage, levels,
+                       layers);
+    target_.image = made.image;
+    target_.view = made.view;
 }
 
 void HostImage::clear(VkCommandBuffer commands, VkImageLayout from, std::uint32_t level,
@@ -76,8 +80,8 @@ void HostImage::clear(VkCommandBuffer commands, VkImageLayout from, std::uint32_
 }
 
 void HostImage::fill(VkCommandBuffer commands) const {
-    for (std::uint32_t level = 0; level < target_.levels; ++level) {
-        for (std::uint32_t layer = 0; layer < target_.layers; ++layer) {
+    for (std::uint32_t level = 0; level < levels; ++level) {
+        for (std::uint32_t layer = 0; layer < layers; ++layer) {
             clear(commands, VK_IMAGE_LAYOUT_UNDEFINED, level, layer);
         }
     }

@@ -9,7 +9,7 @@
 
 namespace nearfield::test {
 
-/// An image of the host that nearfield is to write to, level 1 of layer 1 of it. The host's own
+/// An image of the host that nearfield is to write to, the last level and layer of it. The host's own
 /// commands before and after use the transfer stage alone: they fill all of it with a pattern, and
 /// copy the level out, with no barrier of the host's towards nearfield or back.
 class HostImage {

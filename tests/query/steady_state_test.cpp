@@ -129,7 +129,9 @@ struct TakenInTurns {
             for (auto [image, format] :
                  {std::pair{&images[i].signed_distance, VK_FORMAT_R32_SFLOAT},
                   std::pair{&images[i].feature, VK_FORMAT_R32_UINT}}) {
-                image->image = gpu.make_image(format, extent, usage).image;
+                const test_support::HostGpu::Image made = gpu.make_image(format, extent, usage);
+                image->image = made.image;
+                image->view = made.view;
                 image->format = format;
                 image->extent = extent;
                 image->usage = usage;
@@ -172,14 +174,6 @@ TEST_F(SteadyState, TargetsThatTakeTurnsAllocateAndCreateNothing) {
     });
     expect_answers(results);
     EXPECT_TRUE(watched().collect(former, results).ok());
-    // Of each image one view was made, which goes when the host says so, and only then.
-    for (const ResidentFieldTarget& target : targets.images) {
-        created.clear();
-        EXPECT_TRUE(watched().release_target(target.feature.image).ok());
-        EXPECT_EQ(created, std::vector<std::string>{"vkDestroyImageView"});
-        EXPECT_TRUE(watched().release_target(target.feature.image).ok());
-        EXPECT_EQ(created.size(), 1U);
-    }
 }
 
 }  // namespace

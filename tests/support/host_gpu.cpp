@@ -110,7 +110,7 @@ HostGpu::Image HostGpu::make_image(VkFormat format, VkExtent2D extent, VkImageUs
     view.image = image.image;
     view.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view.format = format;
-    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, levels - 1, 1, layers - 1, 1};
     require(vkCreateImageView(device(), &view, nullptr, &image.view), "vkCreateImageView");
     at_end([this, handle = image.view] { vkDestroyImageView(device(), handle, nullptr); });
     return image;

@@ -87,7 +87,7 @@ public:
     /// A mapped buffer, for copies from the device if nothing else is said.
     [[nodiscard]] Buffer make_buffer(std::uint64_t bytes,
                                      VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    /// The view is of the first level and layer.
+    /// The view is of the last level and layer.
     [[nodiscard]] Image make_image(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
                                    std::uint32_t levels = 1, std::uint32_t layers = 1);
     /// Registers a destruction for the end of the lifetime; they run in reverse order.

@@ -127,6 +127,11 @@ VkImage MockDriver::make_image() {
     return image;
 }
 
+VkImageView MockDriver::make_image_view() {
+    const UnwatchedAllocations here;
+    return state_->make<VkImageView>(the_host, state_->device);
+}
+
 VkBuffer MockDriver::make_buffer() {
     const UnwatchedAllocations here;
     const auto buffer = state_->make<VkBuffer>(the_host, state_->device);

@@ -62,6 +62,7 @@ public:
     [[nodiscard]] bool is_signalled(VkSemaphore semaphore) const;
     /// An image of the host, with memory.
     [[nodiscard]] VkImage make_image();
+    [[nodiscard]] VkImageView make_image_view();
     [[nodiscard]] VkBuffer make_buffer();
     /// Sets the timeline semaphore support that host() reports.
     void enable_timeline_semaphores(bool enabled = true);
