@@ -19,7 +19,7 @@ BatchRing::BatchRing(std::uint32_t frames, const plan::PlanLimits& limits,
 }
 
 BatchRing::Frame* BatchRing::find(Ticket ticket) {
-    if (ticket.number == 0 || ticket.context != shapes_->context()) {
+    if (ticket.number == 0 || ticket.context != shapes_->errors().context()) {
         return nullptr;
     }
     for (const auto& frame : frames_) {
@@ -37,9 +37,9 @@ BatchRing::Frame& BatchRing::require(Ticket ticket) {
         throw StatusException(
             {StatusCode::unknown_ticket,
              ticket == Ticket{} ? "the ticket names no batch"
-             : ticket.context != shapes_->context()
+             : ticket.context != shapes_->errors().context()
                  ? name + " is of another context (number " + std::to_string(ticket.context) +
-                       "; this one is number " + std::to_string(shapes_->context()) + ")"
+                       "; this one is number " + std::to_string(shapes_->errors().context()) + ")"
                  : name + " was collected already, or never issued by this context"});
     }
     return *frame;
@@ -107,7 +107,7 @@ Ticket BatchRing::start_batch(const Batch& batch, Results* memory, Laps& laps, c
     last_ = &frame;
     frame.runner.results().timings.total =
         laps.total() - (frame.runner.pipeline_milliseconds() - made);
-    return {frame.number, shapes_->context()};
+    return {frame.number, shapes_->errors().context()};
 }
 
 Ticket BatchRing::submit(const Batch& batch, const Submission& order, Results* memory, Laps& laps) {

@@ -1,4 +1,3 @@
-#include <engine/base/unknown_shape.hpp>
 #include <engine/batch/shape_store.hpp>
 
 #include <utility>
@@ -6,7 +5,7 @@
 namespace nearfield::batch {
 
 ShapeStore::Shape* ShapeStore::find_shape(ShapeHandle handle) {
-    if (handle.context != context_ || handle.index >= shapes_.size()) {
+    if (handle.context != errors_.context() || handle.index >= shapes_.size()) {
         return nullptr;
     }
     Shape& shape = shapes_[handle.index];
@@ -59,13 +58,13 @@ Expected<ShapeHandle> ShapeStore::add(std::span<const Ring> rings, double deviat
         return status;
     }
     free_shapes_.pop_back();
-    return ShapeHandle{index, shapes_[index].generation, context_};
+    return ShapeHandle{index, shapes_[index].generation, errors_.context()};
 }
 
 Status ShapeStore::update(ShapeHandle handle, std::span<const Ring> rings, double deviation) {
     Shape* const shape = find_shape(handle);
     if (shape == nullptr) {
-        return unknown_shape("update_shape", handle, context_);
+        return errors_.unknown("update_shape", handle);
     }
     ++revision_;
     return shape->current->holders == 0 ? shape->current->polygon.assign(rings, deviation)
@@ -75,7 +74,7 @@ Status ShapeStore::update(ShapeHandle handle, std::span<const Ring> rings, doubl
 Status ShapeStore::remove(ShapeHandle handle) {
     Shape* const shape = find_shape(handle);
     if (shape == nullptr) {
-        return unknown_shape("remove_shape", handle, context_);
+        return errors_.unknown("remove_shape", handle);
     }
     ++revision_;
     free_shapes_.push_back(handle.index);

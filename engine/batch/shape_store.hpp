@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/shape_errors.hpp>
 #include <engine/base/unique_numbers.hpp>
 #include <engine/geometry/polygon.hpp>
 #include <nearfield/shape.hpp>
@@ -22,8 +23,10 @@ public:
     /// The shapes that one holder holds.
     class Held;
 
-    /// Of the context, in the handles of its shapes.
-    [[nodiscard]] std::uint32_t context() const { return context_; }
+    /// Of handles that name none of the shapes.
+    [[nodiscard]] const ShapeErrors& errors() const { return errors_; }
+    /// A handle that stands for a shape that was not added, and why.
+    [[nodiscard]] ShapeHandle refuse(const Status& why) { return errors_.refuse(why); }
 
     [[nodiscard]] Expected<ShapeHandle> add(std::span<const Ring> rings, double deviation);
     Status update(ShapeHandle handle, std::span<const Ring> rings, double deviation);
@@ -60,7 +63,7 @@ private:
     void retire(Version& version);
     void make_spare(Version& version);
 
-    std::uint32_t context_ = next_owner_number();
+    ShapeErrors errors_{next_owner_number()};
     std::vector<std::unique_ptr<Version>> versions_;
     std::vector<Shape> shapes_;
     std::vector<std::uint32_t> free_shapes_;

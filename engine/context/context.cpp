@@ -25,6 +25,7 @@ Expected<ResolvedFill> filled(std::span<const Ring> rings, FillRule rule, double
 
 Context::Context(std::unique_ptr<Implementation> implementation) noexcept
     : implementation_(std::move(implementation)) {}
+Context::Context() noexcept : implementation_(std::make_unique<Implementation>(Settings())) {}
 Context::~Context() = default;
 Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
@@ -66,11 +67,9 @@ Expected<Context> Context::create_cpu(const Settings& settings) {
     return Context(std::move(implementation));
 }
 
-Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings, double deviation) {
-    Expected<ShapeHandle> handle = ShapeHandle{};
-    Status status = implementation_->unless_lost(
-        [&] { handle = implementation_->shapes().add(rings, deviation); });
-    return status.ok() ? handle : Expected<ShapeHandle>(status);
+AddedShape Context::add_shape(std::span<const Ring> rings, double deviation) {
+    return implementation_->add_shape(
+        [&] { return implementation_->shapes().add(rings, deviation); });
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation) {
@@ -80,11 +79,9 @@ Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, dou
     return status.ok() ? result : status;
 }
 
-Expected<ShapeHandle> Context::add_shape(std::span<const RingView> rings, double deviation) {
-    Expected<ShapeHandle> handle = ShapeHandle{};
-    Status status = implementation_->unless_lost(
-        [&] { handle = implementation_->shapes().add(implementation_->gather(rings), deviation); });
-    return status.ok() ? handle : Expected<ShapeHandle>(status);
+AddedShape Context::add_shape(std::span<const RingView> rings, double deviation) {
+    return implementation_->add_shape(
+        [&] { return implementation_->shapes().add(implementation_->gather(rings), deviation); });
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const RingView> rings, double deviation) {
@@ -95,11 +92,12 @@ Status Context::update_shape(ShapeHandle shape, std::span<const RingView> rings,
     return status.ok() ? result : status;
 }
 
-Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings, FillRule rule,
-                                         double deviation) {
-    const Expected<ResolvedFill> fill = filled(rings, rule, deviation);
-    return fill.has_value() ? add_shape(fill->rings, fill->deviation)
-                            : Expected<ShapeHandle>(fill.error());
+AddedShape Context::add_shape(std::span<const Ring> rings, FillRule rule, double deviation) {
+    return implementation_->add_shape([&]() -> Expected<ShapeHandle> {
+        const Expected<ResolvedFill> fill = filled(rings, rule, deviation);
+        return fill.has_value() ? implementation_->shapes().add(fill->rings, fill->deviation)
+                                : fill.error();
+    });
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, FillRule rule,
@@ -125,6 +123,10 @@ Expected<std::span<const InstancePair>> Context::find_pairs(std::span<const Inst
 
 Status Context::run(const Batch& batch, Results& results, const Limits& limits) {
     return call_within(limits, [&] { return implementation_->run(batch, results); });
+}
+
+Expected<Ticket> Context::submit(const Batch& batch, const Limits& limits) {
+    return submit(batch, Submission(), limits);
 }
 
 Expected<Ticket> Context::submit(const Batch& batch, const Submission& submission,

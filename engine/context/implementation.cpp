@@ -1,4 +1,3 @@
-#include <engine/base/unknown_shape.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/context/read_structures.hpp>
 #include <engine/gpu/submission.hpp>
@@ -18,9 +17,9 @@ geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
 
 /// `device` is null for a context without one.
 plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings,
-                             std::uint32_t context) {
+                             const ShapeErrors& shape_errors) {
     plan::PlanLimits limits;
-    limits.context = context;
+    limits.shape_errors = &shape_errors;
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
     limits.bounding_volume = settings.bounding_volume;
@@ -74,7 +73,7 @@ Status lost_device() {
 Context::Implementation::Machinery::Machinery(const gpu::Device* device, const Settings& settings,
                                               batch::ShapeStore& shapes)
     : renderer(device == nullptr ? nullptr : std::make_unique<render::Renderer>(*device, settings)),
-      ring(settings.batches_in_flight, plan_limits(device, settings, shapes.context()),
+      ring(settings.batches_in_flight, plan_limits(device, settings, shapes.errors()),
            thresholds_of(device, settings), settings.jobs, renderer.get(), shapes) {}
 
 Context::Implementation::Implementation(const Settings& settings)
@@ -135,7 +134,7 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const geometry::Polygon* const polygon = shapes_.find(instances[i].shape);
         Status status = polygon == nullptr
-                            ? unknown_shape("its shape", instances[i].shape, shapes_.context())
+                            ? shapes_.errors().unknown("its shape", instances[i].shape)
                             : plan::check_pose(instances[i].pose, "the instance");
         if (!status.ok()) {
             return Status(status.code(),

@@ -88,6 +88,20 @@ public:
 
     [[nodiscard]] batch::ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const batch::ShapeStore& shapes() const { return shapes_; }
+    /// Calls `add`, which adds a shape to these, unless the device is lost; keeps why it fails.
+    template <class Add>
+    AddedShape add_shape(const Add& add) {
+        Expected<ShapeHandle> handle = ShapeHandle{};
+        Status status = unless_lost([&] { handle = add(); });
+        if (status.ok() && handle.has_value()) {
+            return *handle;
+        }
+        const Status why = status.ok() ? handle.error() : status;
+        ShapeHandle refused{UINT32_MAX, 0, shapes_.errors().context()};
+        // Where memory runs out, the handle stands for a refusal without words.
+        static_cast<void>(catch_to_status([&] { refused = shapes_.refuse(why); }).ok());
+        return {why, refused};
+    }
     /// Rings of the caller's numbers, until the next call.
     [[nodiscard]] std::span<const Ring> gather(std::span<const RingView> rings) {
         return gathered_rings_.gather(rings);

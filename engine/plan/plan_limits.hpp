@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/shape_errors.hpp>
 #include <engine/geometry/mesh.hpp>
 #include <engine/plan/atlas.hpp>
 #include <engine/plan/technique.hpp>
@@ -15,9 +16,9 @@ namespace nearfield::plan {
 
 /// Limits set by the device and the caller.
 struct PlanLimits {
-    std::uint32_t context = 0;          ///< number in the handles of its shapes
-    geometry::SubpixelGrid subpixel;    ///< of the device
-    std::uint32_t largest_tile = 1024;  ///< cells along a side
+    const ShapeErrors* shape_errors = nullptr;  ///< of the context; for handles without a shape
+    geometry::SubpixelGrid subpixel;            ///< of the device
+    std::uint32_t largest_tile = 1024;          ///< cells along a side
     /// Side, in cells, of tiles for boundary points. Points are sparse in their region: small tiles
     /// omit the empty parts, and each draws and tests only the edges near it.
     std::uint32_t points_tile = 64;

@@ -1,5 +1,4 @@
 #include <engine/base/interruption.hpp>
-#include <engine/base/unknown_shape.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/empty_result.hpp>
 #include <engine/plan/planner.hpp>
@@ -127,10 +126,10 @@ Status Planner::check(const Query& query, Submissions submissions, const Current
     }
     const bool a_left_out = is_of_b_alone<Query> && query.a.shape == ShapeHandle{};
     if (planned.a == nullptr && !a_left_out) {
-        return unknown_shape("shape A", query.a.shape, limits_.context);
+        return limits_.shape_errors->unknown("shape A", query.a.shape);
     }
     if (planned.b == nullptr) {
-        return unknown_shape("shape B", query.b.shape, limits_.context);
+        return limits_.shape_errors->unknown("shape B", query.b.shape);
     }
     if constexpr (requires { query.target; }) {
         if (query.resident && query.target != nullptr) {

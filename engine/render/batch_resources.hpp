@@ -61,8 +61,7 @@ struct TileBatchOnDevice {
 class BatchResources {
 public:
     /// `views`: of images of the host; must outlive this. `timestamps`: the passes are timed.
-    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
-                   bool timestamps);
+    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout, bool timestamps);
     /// Waits for its own submission if the device is still working on it. Waiting for commands
     /// recorded for the host is up to the host.
     ~BatchResources();

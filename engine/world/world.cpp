@@ -1,6 +1,5 @@
 // A world itself: its instances, and what its other members share.
 
-#include <engine/base/unknown_shape.hpp>
 #include <engine/context/call_within.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/world_state.hpp>
@@ -9,6 +8,7 @@
 #include <utility>
 
 namespace nearfield {
+
 World::State::State(Context::Implementation& of)
     : context(&of), jobs(of.jobs()), scratch(jobs.count()) {}
 
@@ -24,7 +24,7 @@ void World::State::prepare(const WorldFilter& filter, const char* call) {
 const geometry::Polygon& World::State::shape(ShapeHandle handle, const char* call) const {
     const geometry::Polygon* const polygon = context->shapes().find(handle);
     if (polygon == nullptr) {
-        throw StatusException(unknown_shape(call, handle, context->shapes().context()));
+        throw StatusException(context->shapes().errors().unknown(call, handle));
     }
     return *polygon;
 }

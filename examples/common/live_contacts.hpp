@@ -2,7 +2,7 @@
 
 #include "scene.hpp"
 
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <vulkan/vulkan.h>
 

@@ -1,6 +1,6 @@
 // A host with its own Vulkan device: nearfield records a batch into the host's command buffer, the
 // host submits it with its frame, and reads the answer when the frame is complete.
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <vulkan/vulkan.h>
 

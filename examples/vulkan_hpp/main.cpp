@@ -3,7 +3,7 @@
 // same command buffer.
 #include "arena.hpp"
 
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <count_contacts.hpp>
 #include <vulkan/vulkan_raii.hpp>

@@ -2,16 +2,14 @@
 
 #include <nearfield/export.hpp>
 #include <nearfield/fill.hpp>
-#include <nearfield/host.hpp>
+#include <nearfield/headless.hpp>
 #include <nearfield/jobs.hpp>
 #include <nearfield/limits.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
-#include <nearfield/resident.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
-#include <nearfield/submission.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -25,6 +23,14 @@
 /// of queries and returns their results.
 
 namespace nearfield {
+
+// Defined in host.hpp, submission.hpp and resident.hpp, which vulkan.hpp includes.
+struct HostDevice;
+struct Submission;
+struct Recording;
+struct ResidentField;
+struct ResidentRecords;
+struct ResidentSamples;
 
 /// Upper limit of Settings::batches_in_flight.
 inline constexpr std::uint32_t max_batches_in_flight = 8;
@@ -87,6 +93,23 @@ struct Settings {
     alignas(std::uint64_t) bool pipelines_on_demand = false;  // likewise
 };
 
+/// What Context::add_shape() returns: the handle of the shape, or why there is none. It can stand
+/// wherever a handle does. Where the shape was refused, whatever is asked about it fails for the
+/// same reason (of more than the last 64 refusals in a context, without the words).
+class AddedShape : public Expected<ShapeHandle> {
+public:
+    /// A shape that was added.
+    AddedShape(ShapeHandle handle) : Expected(handle), handle_(handle) {}
+    /// A shape that was refused, and the handle that stands for it.
+    AddedShape(Status why, ShapeHandle handle) : Expected(std::move(why)), handle_(handle) {}
+
+    /// The handle; of a shape that was refused, one that every query refuses.
+    operator ShapeHandle() const noexcept { return handle_; }
+
+private:
+    ShapeHandle handle_;
+};
+
 /// Names a batch in flight of one context. The default value names none. A ticket of another
 /// context is refused (unknown_ticket).
 struct Ticket {
@@ -140,6 +163,10 @@ public:
     /// fail with no_device. Settings that concern the device are ignored.
     [[nodiscard]] static Expected<Context> create_cpu(const Settings& settings = {});
 
+    /// As create_cpu() with default settings. The program ends if there is no memory for it: where
+    /// that has to be handled, call create_cpu().
+    Context() noexcept;
+
     ~Context();
     /// A moved-from context can only be destroyed or assigned to.
     Context(Context&&) noexcept;
@@ -149,7 +176,8 @@ public:
     Context& operator=(const Context&) = delete;
 
     /// Adds a shape. The rings are copied. There is no precomputation: a shape may be added in the
-    /// frame that first uses it.
+    /// frame that first uses it. Whether it was refused may be asked now, or is said by the first
+    /// query about it.
     ///
     /// `deviation`, in the units of the coordinates, >= 0: the maximum distance of the rings from
     /// the shape that they approximate, as bounded by tessellate() (curve.hpp); 0 if the rings are
@@ -161,17 +189,15 @@ public:
     /// or lies on one line, a coordinate is not finite or exceeds `largest_coordinate` in
     /// magnitude, the rings together are smaller than `smallest_extent` or have more than
     /// `max_vertices` vertices, or the deviation is out of range.
-    [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const Ring> rings,
-                                                  double deviation = 0.0);
-    /// The same from the caller's own numbers.
-    [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const RingView> rings,
-                                                  double deviation = 0.0);
-    /// The region that the rings enclose by a rule, as resolve_fill() (fill.hpp) finds it on its
-    /// finest grid: features are those of its rings, and its deviation is added to `deviation`. Of
-    /// FillRule::union_of_parts every ring is a part. Fails as resolve_fill() does too, and with
+    [[nodiscard]] AddedShape add_shape(std::span<const Ring> rings, double deviation = 0.0);
+    /// Adds a shape from the caller's own numbers.
+    [[nodiscard]] AddedShape add_shape(std::span<const RingView> rings, double deviation = 0.0);
+    /// Adds the region that the rings enclose by a rule, as resolve_fill() (fill.hpp) finds it on
+    /// its finest grid: features are those of its rings, and its deviation is added to `deviation`.
+    /// Of FillRule::union_of_parts every ring is a part. Fails as resolve_fill() does too, and with
     /// invalid_shape if the region is empty.
-    [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const Ring> rings, FillRule rule,
-                                                  double deviation = 0.0);
+    [[nodiscard]] AddedShape add_shape(std::span<const Ring> rings, FillRule rule,
+                                       double deviation = 0.0);
 
     /// Replaces all rings of a shape; its handle stays valid. Nothing is rebuilt, so deforming a
     /// shape every frame costs one copy. Batches in flight are answered for the rings they were
@@ -230,16 +256,16 @@ public:
     /// is submitted if no query needs the device. Nothing of the batch is borrowed: as soon as this
     /// returns, it may be cleared, and shapes may be updated and removed.
     ///
-    /// The device waits for the semaphores in `submission` before it works on the batch and signals
-    /// the others when it is done. If no query needs the device, the semaphores are submitted
-    /// without commands, so every ticket waits for them and signals them exactly once. On an error
-    /// they are not submitted.
-    ///
-    /// Fails with ring_full if Settings::batches_in_flight batches are not yet collected, with
-    /// invalid_submission if a semaphore cannot be used (the message names it and the reason), and
-    /// as run() does; there is no ticket then and nothing to collect. If `limits` end the call
-    /// while it plans, no query needs the device. They hold for this call alone.
-    [[nodiscard]] Expected<Ticket> submit(const Batch& batch, const Submission& submission = {},
+    /// Fails with ring_full if Settings::batches_in_flight batches are not yet collected, and as
+    /// run() does; there is no ticket then and nothing to collect. If `limits` end the call while
+    /// it plans, no query needs the device. They hold for this call alone.
+    [[nodiscard]] Expected<Ticket> submit(const Batch& batch, const Limits& limits = {});
+    /// Submits a batch as above, with semaphores of the host's: the device waits for some of them
+    /// before it works on the batch and signals the others when it is done. If no query needs the
+    /// device, the semaphores are submitted without commands, so every ticket waits for them and
+    /// signals them exactly once. On an error they are not submitted. Also fails with
+    /// invalid_submission if a semaphore cannot be used (the message names it and the reason).
+    [[nodiscard]] Expected<Ticket> submit(const Batch& batch, const Submission& submission,
                                           const Limits& limits = {});
 
     /// Records a batch into a command buffer of the host, which submits it; this call submits

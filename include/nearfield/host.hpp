@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/export.hpp>
+#include <nearfield/headless.hpp>
 
 #include <vulkan/vulkan_core.h>
 
@@ -16,24 +17,6 @@
 /// docs/host_integration.md shows how the parts fit together.
 
 namespace nearfield {
-
-/// Severity of a message.
-enum class LogLevel {
-    information,  ///< creation and destruction, the device, pipelines with their build times
-    warning,      ///< memory or images grew after start-up, which can delay a frame
-    error,        ///< device loss; a shader to be reloaded does not compile
-};
-
-/// Receives log messages. Silent by default. When `write` is set: creation and destruction,
-/// pipeline build times, growth, device loss.
-///
-/// `write` is called by the thread that called the library, during that call; it must not throw or
-/// call the context. `message` is one line without a line break, valid during the call.
-struct Log {
-    void* user = nullptr;  ///< passed to `write`
-    /// Receives one message.
-    void (*write)(void* user, LogLevel level, const char* message) = nullptr;
-};
 
 /// Access to a queue that the host uses too. Every member is optional. The functions are called by
 /// the thread that called the library and must not throw.
@@ -158,15 +141,6 @@ struct HostDevice {
     /// been created with queues of each.
     const std::uint32_t* resident_families = nullptr;
     std::uint32_t resident_family_count = 0;  ///< length of `resident_families`
-};
-
-/// Selects the device of a headless context.
-struct HeadlessOptions {
-    std::uint32_t structure_size = sizeof(HeadlessOptions);  ///< leave unchanged
-    /// A part of the device's name, case-sensitive; null or empty: the best kind available
-    /// (discrete, integrated, virtual, then a CPU implementation such as lavapipe).
-    const char* device_name = nullptr;
-    Log log = {};  ///< receives messages
 };
 
 }  // namespace nearfield

@@ -75,12 +75,12 @@ struct ResidentImageTarget {
     /// and without a swizzle.
     VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_UNDEFINED;  ///< as ResidentField states for each image
-    VkExtent2D extent{};                    ///< of the level, texels: as large as the field or larger
-    VkImageUsageFlags usage = 0;            ///< contains VK_IMAGE_USAGE_STORAGE_BIT
-    std::uint32_t level = 0;                ///< of `view`
-    std::uint32_t layer = 0;                ///< of `view`
-    TargetState before = former_readers;    ///< default: what it holds is discarded
-    TargetState after = read_by_shaders;    ///< needs VK_IMAGE_USAGE_SAMPLED_BIT as it is
+    VkExtent2D extent{};                  ///< of the level, texels: as large as the field or larger
+    VkImageUsageFlags usage = 0;          ///< contains VK_IMAGE_USAGE_STORAGE_BIT
+    std::uint32_t level = 0;              ///< of `view`
+    std::uint32_t layer = 0;              ///< of `view`
+    TargetState before = former_readers;  ///< default: what it holds is discarded
+    TargetState after = read_by_shaders;  ///< needs VK_IMAGE_USAGE_SAMPLED_BIT as it is
 };
 
 /// Where a resident field goes (DistanceFieldQuery::target): one image or both, in the formats of

@@ -4,7 +4,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
 #include <engine/gpu/submission.hpp>
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <tests/bench/pass_calls.hpp>
 #include <tests/bench/take.hpp>

@@ -2,7 +2,7 @@
 // a table in Markdown.
 
 #include <engine/gpu/headless.hpp>
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <tests/bench/clocks.hpp>
 #include <tests/bench/take.hpp>

@@ -1,4 +1,4 @@
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/mock_driver.hpp>

@@ -1,6 +1,6 @@
 #include "minimal_engine.hpp"
 
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/query/all_numbers.hpp>

@@ -275,7 +275,7 @@ TEST(BatchLimits, HoldForOneCallOfABatchInFlight) {
     for (const std::uint64_t n : {1U, 5U, 40U, 400U}) {
         SCOPED_TRACE("cut at checkpoint " + std::to_string(n));
         Cut at_submit(n);
-        Expected<Ticket> ticket = pair.context().submit(batch, {}, at_submit.limits());
+        Expected<Ticket> ticket = pair.context().submit(batch, at_submit.limits());
         ASSERT_TRUE(ticket.has_value());
         ASSERT_TRUE(pair.context().collect(*ticket, results).ok());
         pair.expect_whole_or_cut(batch, results, whole);

@@ -25,6 +25,10 @@ build_and_run() {
 build_and_run hello '^\(8\.5, 0\.5\) is 0\.5 deep; out along \(-1, 0\)$'
 build_and_run host '[0-9]+ points inside, the deepest by (1|0\.9)'
 build_and_run vulkan_hpp 'frame 5: [1-9][0-9]* contacts, [1-9][0-9]* inside.device and CPU agree$'
-# An example that needs no device opens no Vulkan loader.
+# It is the README's program, includes no header of Vulkan's, and opens no Vulkan loader.
+[[ $(sed -n '/^```cpp$/,/^```$/p' "$SOURCE/README.md" | sed '1d; /^```$/,$d') == \
+    "$(<"$SOURCE/examples/hello/main.cpp")" ]] || fail "the README has another program than hello"
+! "$CXX" -std=c++20 -M "-I$prefix/include" "$SOURCE/examples/hello/main.cpp" | grep vulkan/ ||
+    fail "hello includes headers of Vulkan's"
 ! LD_DEBUG=files "$place/example hello ON/build/hello" 2>&1 | grep libvulkan ||
     fail "hello opens a Vulkan loader"

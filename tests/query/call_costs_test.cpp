@@ -255,7 +255,8 @@ TEST_F(CallCosts, AreThoseOfTheDocuments) {
     image.format = VK_FORMAT_R32_SFLOAT;
     image.extent = {64, 64};
     image.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    const test_support::HostGpu::Image made = gpu.make_image(image.format, image.extent, image.usage);
+    const test_support::HostGpu::Image made =
+        gpu.make_image(image.format, image.extent, image.usage);
     image.image = made.image;
     image.view = made.view;
     const auto measure_first = [&](const auto& call) {

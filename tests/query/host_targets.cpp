@@ -50,9 +50,8 @@ HostImage::HostImage(HostGpu& gpu, VkFormat format, VkExtent2D extent)
                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
     target_.after = {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT,
                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-    const HostGpu::Image made =
-        gpu.make_image(format, {2 * extent.width + 1, 2 * extent.height + 1}, image_usage, levels,
-                       layers);
+    const HostGpu::Image made = gpu.make_image(
+        format, {2 * extent.width + 1, 2 * extent.height + 1}, image_usage, levels, layers);
     target_.image = made.image;
     target_.view = made.view;
 }

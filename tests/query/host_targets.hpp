@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <tests/support/host_gpu.hpp>
 
@@ -9,9 +9,9 @@
 
 namespace nearfield::test {
 
-/// An image of the host that nearfield is to write to, the last level and layer of it. The host's own
-/// commands before and after use the transfer stage alone: they fill all of it with a pattern, and
-/// copy the level out, with no barrier of the host's towards nearfield or back.
+/// An image of the host that nearfield is to write to, the last level and layer of it. The host's
+/// own commands before and after use the transfer stage alone: they fill all of it with a pattern,
+/// and copy the level out, with no barrier of the host's towards nearfield or back.
 class HostImage {
 public:
     /// `extent`: of the level that is written.

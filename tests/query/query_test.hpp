@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>

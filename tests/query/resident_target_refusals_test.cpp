@@ -110,8 +110,7 @@ TEST_F(TargetRefusals, OfImages) {
     refuse_image("has 28 x 64 texels; the field has 29 x 29 cells",
                  [](auto& image) { image.extent.width = 28; });
     refuse_image("has 64 x 28 texels", [](auto& image) { image.extent.height = 28; });
-    refuse_image("has no view to write through",
-                 [](auto& image) { image.view = VK_NULL_HANDLE; });
+    refuse_image("has no view to write through", [](auto& image) { image.view = VK_NULL_HANDLE; });
     refuse_image("layout number 1000001002 before",
                  [](auto& image) { image.before.layout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR; });
     refuse_image("layout number 3 after", [](auto& image) {

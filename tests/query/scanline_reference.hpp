@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/geometry/mesh.hpp>
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <tests/query/pair.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <tests/support/fake_loader.hpp>
 #include <tests/support/vulkan_host.hpp>

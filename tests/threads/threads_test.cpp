@@ -1,5 +1,5 @@
 #include <engine/gpu/headless.hpp>
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <gtest/gtest.h>
 

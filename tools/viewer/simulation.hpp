@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/context.hpp>
+#include <nearfield/host.hpp>
 
 #include <tools/simulation/clearance_scene.hpp>
 #include <tools/simulation/world.hpp>

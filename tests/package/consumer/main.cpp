@@ -1,6 +1,6 @@
 // A host that uses only the installed files of nearfield. It uses every compiled part of the
 // interface, and receives an error, which must not need exceptions or RTTI here.
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <cmath>
 #include <cstdio>

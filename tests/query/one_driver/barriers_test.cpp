@@ -1,4 +1,4 @@
-#include <nearfield/nearfield.hpp>
+#include <nearfield/vulkan.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/query/all_numbers.hpp>

@@ -1,0 +1,15 @@
+#pragma once
+
+/// \file
+/// All of nearfield, for a program that has a Vulkan device: what nearfield.hpp includes, the
+/// host's device and command buffers, and results that stay on the device.
+
+#include <nearfield/device_poses.hpp>
+#include <nearfield/diagnostics.hpp>
+#include <nearfield/host.hpp>
+#include <nearfield/nearfield.hpp>
+#include <nearfield/requirements.hpp>
+#include <nearfield/resident.hpp>
+#include <nearfield/resident_pairs.hpp>
+#include <nearfield/submission.hpp>
+#include <nearfield/tile.hpp>
