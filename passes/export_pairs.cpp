@@ -16,7 +16,7 @@ constexpr graph::ExternalAccess of_host{.before = Access::exported_buffer,
 
 ComputeShader make_shader(const gpu::Device& device, const ComputeLayout& layout, gpu::Spirv code,
                           const char* name) {
-    return {device, layout, code, name, search_constants(device, true)};
+    return {device, layout, code, name, search_constants(device)};
 }
 
 }  // namespace

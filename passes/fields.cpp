@@ -23,7 +23,7 @@ namespace {
 
 ComputeShader make_field_shader(const gpu::Device& device, const ComputeLayout& layout,
                                 gpu::Spirv code, const char* name) {
-    return {device, layout, code, name, search_constants(device, false)};
+    return {device, layout, code, name, search_constants(device)};
 }
 
 void write(graph::PassBuilder& pass, Fields::Output& output) {

@@ -14,7 +14,7 @@ using graph::Access;
 Masks::Masks(const gpu::Device& device, const ComputeLayout& layout)
     : device_(&device),
       shapes_(device, layout, shaders::mask_shapes_comp, "nearfield mask shapes",
-              search_constants(device, false)),
+              search_constants(device)),
       rows_(device, layout, shaders::mask_rows_comp, "nearfield mask rows"),
       collect_(device, layout, shaders::collect_masks_comp, "nearfield collect masks") {}
 

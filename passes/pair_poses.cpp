@@ -11,7 +11,7 @@ using graph::Access;
 PairPoses::PairPoses(const gpu::Device& device, const ComputeLayout& layout)
     : functions_(&device.functions()),
       shader_(device, layout, shaders::pair_poses_comp, "nearfield pair poses",
-              search_constants(device, true)),
+              search_constants(device)),
       poses_(graph_.import_buffer({"poses of the host"},
                                   {.before = Access::storage_write_in_compute})),
       shapes_(graph_.import_buffer({"pair shapes", true, false})),

@@ -1,5 +1,7 @@
 #include <passes/pair_search.hpp>
 
+#include <shaders/pair_given_comp.hpp>
+
 namespace nearfield::passes {
 
 using graph::Access;
@@ -11,50 +13,66 @@ namespace {
 constexpr graph::ExternalAccess after_writes{.before = Access::storage_write_in_compute};
 constexpr graph::ExternalAccess after_dispatches{.before = Access::indirect_arguments};
 
+std::uint32_t flags_of(const plan::PairSearchKind& kind) {
+    return (kind.points == plan::FoundPoints::packed ? plan::search_packs_all : 0U) |
+           (kind.goal == plan::PairGoal::contacts ? plan::search_crosses : 0U);
+}
+
 }  // namespace
 
-PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders,
+PairSearch::PairSearch(const gpu::Device& device, const ComputeLayout& layout,
+                       const SearchShaders* shaders, const FoundPairShaders* finding,
                        const plan::PairSearchKind& kind)
-    : shaders_(&shaders),
+    : shaders_(shaders),
+      finding_(finding),
+      flags_(flags_of(kind)),
       input_(graph_.import_buffer({"pair shapes", true, false})),
       instances_(graph_.import_buffer({"pair instances", true, false})),
       scratch_(graph_.import_buffer({"pair scratch"}, after_writes)),
       arguments_(graph_.import_buffer({"pair arguments"}, after_dispatches)),
       row_buffer_(graph_.import_buffer({"pair rows", false, true}, after_writes)),
       counts_(graph_.import_buffer({"pair counts", false, true}, after_writes)) {
-    declare_boxes();
-    declare_pairs();
+    if (kind.are_given()) {
+        given_.emplace(device, layout, shaders::pair_given_comp, "nearfield given pairs",
+                       search_constants(device));
+        declare_given_pairs();
+    } else {
+        declare_boxes();
+        boxes_->graph.compile(device);
+        declare_found_pairs();
+    }
+    declare_edges();
     if (kind.goal == plan::PairGoal::tests) {
-        declare_tests();
+        add("pair crossings", finding_->crossings, of_points, plan::edge_total);
+        add_answers("pair verdicts", finding_->verdicts);
     } else {
         declare_points(kind);
     }
     declare_rows();
-    boxes_.graph.compile(device);
     graph_.compile(device);
 }
 
 void PairSearch::declare_boxes() {
-    auto& graph = boxes_.graph;
-    boxes_.input = graph.import_buffer({"pair shapes", true, false});
-    boxes_.instances = graph.import_buffer({"pair instances", true, false});
-    boxes_.scratch = graph.import_buffer({"pair scratch"}, after_writes);
-    graph.add_pass(
+    Boxes& boxes = boxes_.emplace();
+    boxes.input = boxes.graph.import_buffer({"pair shapes", true, false});
+    boxes.instances = boxes.graph.import_buffer({"pair instances", true, false});
+    boxes.scratch = boxes.graph.import_buffer({"pair scratch"}, after_writes);
+    boxes.graph.add_pass(
         "pair boxes", graph::PassKind::compute,
-        [this](graph::PassBuilder& pass) {
-            pass.read(boxes_.instances, Access::storage_read_in_compute);
-            pass.read(boxes_.input, Access::storage_read_in_compute);
-            boxes_.scratch = pass.write(boxes_.scratch, Access::storage_write_in_compute);
+        [&boxes](graph::PassBuilder& pass) {
+            pass.read(boxes.instances, Access::storage_read_in_compute);
+            pass.read(boxes.input, Access::storage_read_in_compute);
+            boxes.scratch = pass.write(boxes.scratch, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->instances.boxes.bind(commands, item.sets[of_instances]);
-            dispatch(commands, item, shaders_->instances.boxes, no_stage, no_stage);
+            finding_->instances.boxes.bind(commands, item.sets[of_instances]);
+            dispatch(commands, item, finding_->instances.boxes, no_stage, no_stage);
         });
-    boxes_.scratch = graph.add_compute_pass(
-        "pair levels", {}, boxes_.scratch, [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->instances.levels.bind(commands, item.sets[of_instances]);
-            push(commands, item, shaders_->instances.levels, 0, no_stage);
-            shaders_->instances.levels.dispatch(commands, 1);
+    boxes.scratch = boxes.graph.add_compute_pass(
+        "pair levels", {}, boxes.scratch, [this](VkCommandBuffer commands, const Item& item) {
+            finding_->instances.levels.bind(commands, item.sets[of_instances]);
+            push(commands, item, finding_->instances.levels, 0, no_stage);
+            finding_->instances.levels.dispatch(commands, 1);
         });
 }
 
@@ -88,7 +106,7 @@ void PairSearch::add_scan(const char* name, std::uint32_t stage) {
             arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
         },
         [this, stage](VkCommandBuffer commands, const Item& item) {
-            const ComputeShader& scan = shaders_->search.scan;
+            const ComputeShader& scan = shaders_->scan;
             scan.bind(commands, item.sets[of_points]);
             push(commands, item, scan, 0, stage);
             const auto& room = item.capacities;
@@ -99,8 +117,8 @@ void PairSearch::add_scan(const char* name, std::uint32_t stage) {
         });
 }
 
-void PairSearch::declare_pairs() {
-    add("count pairs", shaders_->counts, of_instances);
+void PairSearch::declare_found_pairs() {
+    add("count pairs", finding_->counts, of_instances);
     graph_.add_pass(
         "list pairs", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
@@ -109,30 +127,52 @@ void PairSearch::declare_pairs() {
             arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->lists.bind(commands, item.sets[of_instances]);
-            dispatch(commands, item, shaders_->lists, no_stage, plan::pair_total);
+            finding_->lists.bind(commands, item.sets[of_instances]);
+            dispatch(commands, item, finding_->lists, no_stage, plan::pair_total);
         });
-    add("pair directions", shaders_->directions, of_instances, plan::pair_total);
+    add("pair directions", finding_->directions, of_instances, plan::pair_total);
+}
+
+void PairSearch::declare_given_pairs() {
+    graph_.add_pass(
+        "given pairs", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(instances_, Access::storage_read_in_compute);
+            pass.read(input_, Access::storage_read_in_compute);
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+            arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
+        },
+        [this](VkCommandBuffer commands, const Item& item) {
+            given_->bind(commands, item.sets[of_instances]);
+            given_->dispatch_in_parts(commands, item.push.first_instance, item.push.end_instance,
+                                      [&](std::uint32_t first) {
+                                          push(commands, item, *given_, first, plan::pair_total);
+                                      });
+        });
+}
+
+/// The edges of the directions that are not far from the other shape.
+void PairSearch::declare_edges() {
+    add("pair items", shaders_->items, of_points, plan::item_total);
+    add_scan("count edges", plan::edge_total);
+    add("spread edges", shaders_->spread, of_points, plan::item_total);
 }
 
 void PairSearch::declare_points(const plan::PairSearchKind& kind) {
     const bool finds_contacts = kind.goal == plan::PairGoal::contacts;
-    add("pair items", shaders_->search.items, of_points, plan::item_total);
-    add_scan("count edges", plan::edge_total);
-    add("spread edges", shaders_->search.spread, of_points, plan::item_total);
     if (finds_contacts) {
-        add("pair crossings", shaders_->crossings, of_points, plan::edge_total);
+        add("pair crossings", finding_->crossings, of_points, plan::edge_total);
     }
-    add("pair edges", shaders_->search.edges, of_points, plan::edge_total);
+    add("pair edges", shaders_->edges, of_points, plan::edge_total);
     add_scan("count points", plan::point_total);
-    add("pair points", shaders_->search.points, of_points, plan::point_total);
+    add("pair points", shaders_->points, of_points, plan::point_total);
     if (kind.points != plan::FoundPoints::compared) {
         add_scan("count found points", plan::record_total);
     }
-    if (kind.points == plan::FoundPoints::packed) {
+    add_answers("pair summaries", finds_contacts ? finding_->contacts : shaders_->summaries);
+    if (kind.reads_points()) {
         add_packing();
     }
-    add_answers("pair summaries", finds_contacts ? shaders_->contacts : shaders_->summaries);
 }
 
 void PairSearch::add_packing() {
@@ -145,20 +185,12 @@ void PairSearch::add_packing() {
             records_ = pass.write(records_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->search.pack.bind(commands, item.sets[of_points]);
-            dispatch(commands, item, shaders_->search.pack, plan::point_total, no_stage);
+            shaders_->pack.bind(commands, item.sets[of_points]);
+            dispatch(commands, item, shaders_->pack, plan::point_total, no_stage);
         });
 }
 
-void PairSearch::declare_tests() {
-    add("pair items", shaders_->search.items, of_points, plan::item_total);
-    add_scan("count edges", plan::edge_total);
-    add("spread edges", shaders_->search.spread, of_points, plan::item_total);
-    add("pair crossings", shaders_->crossings, of_points, plan::edge_total);
-    add_answers("pair verdicts", shaders_->verdicts);
-}
-
-/// The last pass before the rows.
+/// The answers of the pairs, of which the rows are made.
 void PairSearch::add_answers(const char* name, const ComputeShader& shader) {
     graph_.add_pass(
         name, graph::PassKind::compute,
@@ -191,11 +223,11 @@ void PairSearch::declare_rows() {
 
 void PairSearch::record_boxes(VkCommandBuffer commands, gpu::Timestamps& timestamps,
                               const Item& item) const {
-    graph::Executor& executor = boxes_.graph.executor();
-    executor.set_buffer(boxes_.input, item.shapes);
-    executor.set_buffer(boxes_.instances, item.instances);
-    executor.set_buffer(boxes_.scratch, item.scratch);
-    boxes_.graph.execute(commands, timestamps, item);
+    graph::Executor& executor = boxes_->graph.executor();
+    executor.set_buffer(boxes_->input, item.shapes);
+    executor.set_buffer(boxes_->instances, item.instances);
+    executor.set_buffer(boxes_->scratch, item.scratch);
+    boxes_->graph.execute(commands, timestamps, item);
 }
 
 void PairSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
@@ -214,8 +246,9 @@ void PairSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
 }
 
 void PairSearch::push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
-                      std::uint32_t first, std::uint32_t stage) {
+                      std::uint32_t first, std::uint32_t stage) const {
     plan::SearchPush push = item.push;
+    push.flags = flags_;
     push.first = first;
     push.stage = stage;
     push.capacity = stage < item.capacities.size() ? item.capacities[stage] : 0;

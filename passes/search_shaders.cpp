@@ -1,5 +1,15 @@
 #include <passes/search_shaders.hpp>
 
+#include <shaders/pair_boxes_comp.hpp>
+#include <shaders/pair_contacts_comp.hpp>
+#include <shaders/pair_counts_comp.hpp>
+#include <shaders/pair_crossings_comp.hpp>
+#include <shaders/pair_directions_comp.hpp>
+#include <shaders/pair_levels_comp.hpp>
+#include <shaders/pair_lists_comp.hpp>
+#include <shaders/pair_rows_comp.hpp>
+#include <shaders/pair_summaries_comp.hpp>
+#include <shaders/pair_verdicts_comp.hpp>
 #include <shaders/search_edges_comp.hpp>
 #include <shaders/search_items_comp.hpp>
 #include <shaders/search_pack_comp.hpp>
@@ -16,29 +26,48 @@ bool reads_texels(const gpu::Device& device) {
     return limits.maxTexelBufferElements >= limits.maxStorageBufferRange / plan::bytes_of_unit;
 }
 
-ComputeShader make_shader(const gpu::Device& device, const ComputeLayout& layout, gpu::Spirv code,
-                          const std::string& name, bool finds_pairs) {
-    return {device, layout, code, name.c_str(), search_constants(device, finds_pairs)};
+ComputeShader make_search_shader(const gpu::Device& device, const ComputeLayout& layout,
+                                 gpu::Spirv code, const char* name) {
+    return {device, layout, code, name, search_constants(device)};
 }
 
 }  // namespace
 
-std::array<VkBool32, 2> search_constants(const gpu::Device& device, bool finds_pairs) {
-    return {reads_texels(device) ? VK_TRUE : VK_FALSE, finds_pairs ? VK_TRUE : VK_FALSE};
+std::array<VkBool32, 1> search_constants(const gpu::Device& device) {
+    return {reads_texels(device) ? VK_TRUE : VK_FALSE};
 }
 
-SearchShaders::SearchShaders(const gpu::Device& device, const ComputeLayout& layout,
-                             bool finds_pairs, const std::string& prefix)
-    : items(
-          make_shader(device, layout, shaders::search_items_comp, prefix + " items", finds_pairs)),
-      scan(make_shader(device, layout, shaders::search_scan_comp, prefix + " scan", finds_pairs)),
-      spread(make_shader(device, layout, shaders::search_spread_comp, prefix + " spread",
-                         finds_pairs)),
-      edges(
-          make_shader(device, layout, shaders::search_edges_comp, prefix + " edges", finds_pairs)),
-      points(make_shader(device, layout, shaders::search_points_comp, prefix + " points",
-                         finds_pairs)),
-      pack(make_shader(device, layout, shaders::search_pack_comp, prefix + " packing",
-                       finds_pairs)) {}
+InstanceShaders::InstanceShaders(const gpu::Device& device, const ComputeLayout& layout)
+    : boxes(make_search_shader(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes")),
+      levels(
+          make_search_shader(device, layout, shaders::pair_levels_comp, "nearfield pair levels")) {}
+
+SearchShaders::SearchShaders(const gpu::Device& device, const ComputeLayout& layout)
+    : items(make_search_shader(device, layout, shaders::search_items_comp, "nearfield pair items")),
+      scan(make_search_shader(device, layout, shaders::search_scan_comp, "nearfield pair scan")),
+      spread(
+          make_search_shader(device, layout, shaders::search_spread_comp, "nearfield pair spread")),
+      edges(make_search_shader(device, layout, shaders::search_edges_comp, "nearfield pair edges")),
+      points(
+          make_search_shader(device, layout, shaders::search_points_comp, "nearfield pair points")),
+      summaries(make_search_shader(device, layout, shaders::pair_summaries_comp,
+                                   "nearfield pair summaries")),
+      pack(make_search_shader(device, layout, shaders::search_pack_comp, "nearfield pair packing")),
+      rows(make_search_shader(device, layout, shaders::pair_rows_comp, "nearfield pair rows")) {}
+
+FoundPairShaders::FoundPairShaders(const gpu::Device& device, const ComputeLayout& layout,
+                                   const InstanceShaders* instance_shaders)
+    : instances(*instance_shaders),
+      counts(
+          make_search_shader(device, layout, shaders::pair_counts_comp, "nearfield pair counts")),
+      lists(make_search_shader(device, layout, shaders::pair_lists_comp, "nearfield pair lists")),
+      directions(make_search_shader(device, layout, shaders::pair_directions_comp,
+                                    "nearfield pair directions")),
+      contacts(make_search_shader(device, layout, shaders::pair_contacts_comp,
+                                  "nearfield pair contacts")),
+      crossings(make_search_shader(device, layout, shaders::pair_crossings_comp,
+                                   "nearfield pair crossings")),
+      verdicts(make_search_shader(device, layout, shaders::pair_verdicts_comp,
+                                  "nearfield pair verdicts")) {}
 
 }  // namespace nearfield::passes

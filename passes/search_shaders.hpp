@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 
 namespace nearfield::passes {
 
@@ -29,23 +28,44 @@ inline constexpr VkDeviceSize search_argument_bytes =
                        plan::points_per_thread);
 }
 
-/// The specialization constants of the shaders that include search.glsl. `finds_pairs`: the
-/// directions are found by the device, and not given in the input.
-[[nodiscard]] std::array<VkBool32, 2> search_constants(const gpu::Device& device, bool finds_pairs);
+/// The specialization constants of the shaders that include shapes.glsl.
+[[nodiscard]] std::array<VkBool32, 1> search_constants(const gpu::Device& device);
 
-/// The shaders that search for boundary points: in the directions of a batch (PointSearch), or
-/// between all pairs of a world (PairSearch).
+/// The shaders that make the boxes of a world's instances, and the levels above them.
+struct InstanceShaders {
+    InstanceShaders(const gpu::Device& device, const ComputeLayout& layout);
+
+    ComputeShader boxes;
+    ComputeShader levels;
+};
+
+/// The shaders of all searches between pairs (PairSearch), given or found.
 struct SearchShaders {
-    /// `prefix`: of the names of the pipelines.
-    SearchShaders(const gpu::Device& device, const ComputeLayout& layout, bool finds_pairs,
-                  const std::string& prefix);
+    SearchShaders(const gpu::Device& device, const ComputeLayout& layout);
 
     ComputeShader items;
     ComputeShader scan;
     ComputeShader spread;
     ComputeShader edges;
     ComputeShader points;
+    ComputeShader summaries;
     ComputeShader pack;
+    ComputeShader rows;
+};
+
+/// Those that find the pairs of a world's instances, and what can be asked of these alone.
+struct FoundPairShaders {
+    /// `instance_shaders` have to stay.
+    FoundPairShaders(const gpu::Device& device, const ComputeLayout& layout,
+                     const InstanceShaders* instance_shaders);
+
+    const InstanceShaders& instances;
+    ComputeShader counts;
+    ComputeShader lists;
+    ComputeShader directions;
+    ComputeShader contacts;
+    ComputeShader crossings;
+    ComputeShader verdicts;
 };
 
 }  // namespace nearfield::passes

@@ -30,7 +30,7 @@ ShaderOfQuestion shader_of(plan::WorldQuestion question) {
 ComputeShader make_query_shader(const gpu::Device& device, const ComputeLayout& layout,
                                 const ShaderOfQuestion& shader) {
     const std::string name = std::string("nearfield ") + shader.pass;
-    return {device, layout, shader.code, name.c_str(), search_constants(device, true)};
+    return {device, layout, shader.code, name.c_str(), search_constants(device)};
 }
 
 /// What the shaders of the instances take of their push constants.

@@ -4,7 +4,7 @@
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/world_question.hpp>
-#include <passes/instance_shaders.hpp>
+#include <passes/search_shaders.hpp>
 
 #include <shaders/world_queries.h>
 

@@ -6,6 +6,7 @@
 
 #include "search.glsl"
 #include "pairs.glsl"
+#include "write_direction.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -37,15 +38,6 @@ uint rank_of(uint b, List list) {
     return rank;
 }
 
-void write_direction(uint index, SearchDirectionData data, uint a, uint b) {
-    uint unit = push.directions + units_of_direction * index;
-    scratch_units[unit] = floatBitsToUint(vec4(data.axis, data.offset));
-    scratch_units[unit + 1u] = uvec4(data.shape_a, data.shape_b, data.parts, data.first_item);
-    scratch_units[unit + 2u] =
-        floatBitsToUint(vec4(data.reach, data.margin, data.rival, data.outside));
-    scratch_units[unit + 3u] = uvec4(floatBitsToUint(data.doubt), floatBitsToUint(data.touching), a, b);
-}
-
 SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b) {
     PairQueryData query = pair_query();
     vec2 apart = (a.high - b.high) + (a.low - b.low);
@@ -62,17 +54,8 @@ SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b
     float reach = (1.0 + margin_of_frames) * query.reach / b.unit +
                   (query.is_test != 0u ? margin : 0.0);
     return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, reach, margin, rival,
-                               asks_outside(query) ? 1.0 : 0.0, doubt, query.touching / b.unit,
-                               float[2](0.0, 0.0));
-}
-
-// Of each block of items that starts among those of a direction, its first direction.
-void write_blocks(uint direction, uint first_item, uint items) {
-    uint end = min(first_item + items, scratch[item_total]);
-    for (uint block = (first_item + search_block - 1u) / search_block; search_block * block < end;
-         ++block) {
-        scratch[push.first_directions + block] = direction;
-    }
+                               asks_outside(query) ? 1.0 : 0.0, doubt, query.touching / b.unit, 0u,
+                               0u);
 }
 
 void main() {
@@ -92,8 +75,9 @@ void main() {
     bool left_to_cpu = (first.left_to_cpu | second.left_to_cpu) != 0u;
     data.touching = left_to_cpu ? -1.0 : data.touching;
     data.reach = left_to_cpu ? -1e30 : data.reach;  // no edge comes near
-    write_direction(list.first + rank, data, a, b);
-    write_blocks(list.first + rank, data.first_item, chunks);
+    data.a = a;
+    data.b = b;
+    write_direction(list.first + rank, data, chunks, scratch[item_total]);
     scratch_units[push.frames + list.first + rank] =
         floatBitsToUint(vec4(second.unit * second.axis, second.high + second.low));
     scratch[push.verdicts + list.first + rank] = left_to_cpu ? pair_left_to_cpu : 0u;

@@ -47,9 +47,7 @@ void main() {
     if (a + 1u == push.instances) {
         pairs = added(pairs, scratch_word(push.block_sums + block));
         items = added(items, scratch_word(item_sums() + block));
-        for (uint stage = 0u; stage < stages; ++stage) {
-            scratch[stage] = scratch[first_counted + stage] = 0u;  // some searches do without them
-        }
+        begin_totals();
         write_total(pair_total, pairs, push.capacity);
         // Without room for all pairs, nothing is known of their items.
         write_total(item_total, items, pairs <= push.capacity ? push.second_capacity : 0u);

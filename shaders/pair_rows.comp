@@ -34,8 +34,11 @@ void write_row(uint direction, uint target, uvec4 summary, uvec4 place) {
     }
 }
 
-// The pairs of the part, which follow one another.
+// The pairs of the part, which follow one another. Given ones are all of the part.
 uint own_pairs() {
+    if (push.instances == 0u) {
+        return scratch[pair_total];
+    }
     uvec4 first = scratch_unit(push.lists + units_of_list * push.first_instance);
     uvec4 last = scratch_unit(push.lists + units_of_list * (push.end_instance - 1u));
     return last.x + last.z - first.x;

@@ -99,9 +99,8 @@ void main() {
         vec4 lengths = uintBitsToFloat(direction_unit(direction, 2u));
         float touching = uintBitsToFloat(direction_unit(direction, 3u).y);
         float margin = depth_margins * lengths.y;
-        bool is_short = end - first <= max_compared_depths;
-        Depths depths = compare(first, is_short ? end : first, touching, margin);
-        bool has_all = touching >= 0.0 && is_short;
+        bool has_all = touching >= 0.0 && end - first <= max_compared_depths;
+        Depths depths = compare(first, has_all ? end : first, touching, margin);
         bool has_rival = depths.second >= depths.depth - 2.0 * margin;
         if (!has_all || (!depths.decided && !depths.any_is_certain)) {
             count = row_undecided;

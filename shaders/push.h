@@ -102,11 +102,9 @@ struct ResolvePointsPush {
 };
 
 struct SearchPush {
-    uint first;       // item of this dispatch
-    uint items;       // pieces of eight edges of A, of all directions
-    uint directions;  // first unit
-    uint direction_count;
-    uint item_blocks;  // first words, and first units, of arrays in the scratch memory
+    uint first;        // instance, or given direction, of this dispatch
+    uint directions;   // first units, and first words, of arrays in the scratch memory
+    uint item_blocks;
     uint edge_blocks;
     uint point_blocks;
     uint block_sums;  // of the blocks of the elements that the last dispatch has looked at
@@ -115,12 +113,9 @@ struct SearchPush {
     uint point_units;
     uint stage;     // that the shader counts
     uint capacity;  // of its elements
-    // 1: of some directions the number of points and the deepest alone are asked for
-    uint summarizes;
-    // Where the device finds the pairs: `items` and `direction_count` are not known, `directions`
-    // and what follows are in the scratch memory.
     uint second_capacity;   // of items, where pairs are counted
-    uint instances;         // their number
+    uint flags;             // search_packs_all, search_crosses
+    uint instances;         // their number; 0: the directions are given
     uint boxes;             // first unit: of the instances, then of the levels above them
     uint lists;             // first unit: one per instance, about the pairs in which it is `a`
     uint pairs;             // first word: two per pair, in the order in which they were found
@@ -129,9 +124,12 @@ struct SearchPush {
     uint summaries;         // first unit: two per pair
     uint verdicts;          // first word: by pair, what is known of their boundaries
     uint frames;            // first unit: by pair, the frame of B in the world
-    uint first_instance;    // the part that is searched: pairs whose `a` is one of these instances
+    // The part that is searched: pairs whose `a` is one of these instances, or given directions
+    uint first_instance;
     uint end_instance;
 };
+const uint search_packs_all = 1u;  // the host reads all points that were found
+const uint search_crosses = 2u;    // the edges of pairs of contacts also cross each other
 
 struct PosePush {
     uint first;  // instance of this dispatch

@@ -1,13 +1,10 @@
-// The search for boundary points (search.h): access to its input. All positions and lengths are in
-// B's frame, relative to its centre, in its units.
+// The search for boundary points (search.h): access to its directions. All positions and lengths are
+// in B's frame, relative to its centre, in its units.
 
 #include "push.h"
 #include "shapes.glsl"
 #include "scratch.glsl"
 #include "frames.glsl"
-
-// Directions, and how many items there are, are in the scratch memory (pairs.h).
-layout(constant_id = 1) const bool finds_pairs = false;
 
 layout(push_constant) uniform Push { SearchPush push; };
 
@@ -22,11 +19,11 @@ uint dispatched_index() {
 }
 
 uint item_count() {
-    return finds_pairs ? scratch[item_total] : push.items;
+    return scratch[item_total];
 }
 
 uint direction_count() {
-    return finds_pairs ? scratch[pair_total] : push.direction_count;
+    return scratch[pair_total];
 }
 
 // Whether the pairs with this instance first are of the part that is searched.
@@ -36,26 +33,22 @@ bool is_in_part(uint a) {
 
 // A unit of a direction.
 uvec4 direction_unit(uint index, uint i) {
-    uint unit = push.directions + units_of_direction * index + i;
-    return finds_pairs ? scratch_unit(unit) : unit_at(unit);
+    return scratch_unit(push.directions + units_of_direction * index + i);
 }
 
 SearchDirectionData direction_at(uint index) {
     vec4 place = uintBitsToFloat(direction_unit(index, 0u));
     uvec4 shapes = direction_unit(index, 1u);
     vec4 lengths = uintBitsToFloat(direction_unit(index, 2u));
-    vec4 rest = uintBitsToFloat(direction_unit(index, 3u));
+    uvec4 rest = direction_unit(index, 3u);
     return SearchDirectionData(place.xy, place.zw, shapes.x, shapes.y, shapes.z, shapes.w,
-                               lengths.x, lengths.y, lengths.z, lengths.w, rest.x, rest.y,
-                               float[2](0.0, 0.0));
+                               lengths.x, lengths.y, lengths.z, lengths.w,
+                               uintBitsToFloat(rest.x), uintBitsToFloat(rest.y), rest.z, rest.w);
 }
 
 // The direction of the first item of a block.
 uint first_direction(uint block) {
-    // These follow the directions in the input.
-    return finds_pairs ? scratch_word(push.first_directions + block)
-                       : word_at(4u * (push.directions + units_of_direction * push.direction_count) +
-                                 block);
+    return scratch_word(push.first_directions + block);
 }
 
 // The direction that an item belongs to.

@@ -30,7 +30,8 @@ const uint points_per_thread = 4u;
 // Replaces the first word of the numbers of parts: one point per edge, its first vertex.
 const uint no_parts = 0xffffffffu;
 
-// The stages count edges, points, and points that were found. The first words of the scratch memory
+// The stages count ordered pairs, which are the directions, their items, edges, points, points that were
+// found, and the pairs with an answer. The first words of the scratch memory
 // say of each stage how many there are and there is room for, those from first_counted on how many
 // were counted. Each has arguments of a dispatch: three numbers of workgroups, of which there is at
 // least one, and how many were counted.
@@ -38,8 +39,6 @@ const uint edge_total = 0u;
 const uint point_total = 1u;
 const uint record_total = 2u;
 const uint stages = 3u;
-// Where the device finds the pairs (pairs.h), it also counts ordered pairs of instances, which are
-// the directions, their items, and the pairs with an answer.
 const uint pair_total = 3u;
 const uint item_total = 4u;
 const uint row_total = 5u;
@@ -66,28 +65,24 @@ struct SearchDirectionData {
     float rival NEARFIELD_DEFAULT(0.0F);
     float outside NEARFIELD_DEFAULT(0.0F);  // 1: points outside B are asked for as well
     float doubt NEARFIELD_DEFAULT(0.0F);  // a second edge farther by no more: in doubt; < 0: never
-    // Points that are not deeper only touch. Negative: in a batch, all points are asked for, and
-    // not only how many are deeper, and the deepest; of a pair, the CPU answers it
+    // Points that are not deeper only touch. Negative: the row tells nothing of the points, of which
+    // the host asks for all; or the CPU answers the pair
     float touching NEARFIELD_DEFAULT(-1.0F);
-    float unused[2] NEARFIELD_DEFAULT({});
+    // Numbers of the instances; of a direction that the host gives, of its query, and nothing
+    uint a NEARFIELD_DEFAULT(0);
+    uint b NEARFIELD_DEFAULT(0);
 };
 const uint units_of_direction = 4u;
 NEARFIELD_CHECK(sizeof(SearchDirectionData) == 16 * units_of_direction)
 
-// A point that the device has found. Where only the deepest is asked for, points that cannot be it
-// are left out; those of them that are deeper than a touch are counted.
+// A point that the device has found.
 struct FoundPointData {
     uint direction NEARFIELD_DEFAULT(0);
     uint edge NEARFIELD_DEFAULT(0);  // of A
-    // Among the points of the edge; from left_out_shift on, in a batch, how many were left out
-    // around it
-    uint number NEARFIELD_DEFAULT(0);
+    uint number NEARFIELD_DEFAULT(0);  // among the points of the edge
     uint word NEARFIELD_DEFAULT(0);  // B's nearest edge and flags, as point_inside
 };
 NEARFIELD_CHECK(sizeof(FoundPointData) == 16)
-const uint left_out_shift = 24u;
-// A workgroup, which leaves out all of its points but one at most, can count them.
-NEARFIELD_CHECK(points_per_thread* search_block <= 1u << (32u - left_out_shift))
 // The error of a depth in margins: that of the point's place, and roundings of the distance.
 NEARFIELD_FLOAT depth_margins = 1.5;
 

@@ -32,7 +32,7 @@ uint edges_of(uint item, uint direction_index) {
         return 0u;
     }
     // Of pairs of contacts, the edges without samples may cross B's too.
-    bool crosses = finds_pairs && direction.outside != 0.0;
+    bool crosses = (push.flags & search_crosses) != 0u && direction.outside != 0.0;
     uint info = word_at(a.infos + chunk);
     uint mask = 0u;
     vec4 next = floats_at(a.edges + chunk_size * chunk);

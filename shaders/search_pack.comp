@@ -1,19 +1,24 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The search's last step, a thread for as many points as in the step before, which threads of a
-// workgroup take in turns: those that were found, one after the other.
+// The points for the host, a thread for as many as in search_points.comp, which threads of a workgroup
+// take in turns: those that were found, one after the other, or of these only the points of directions
+// of which the row does not tell enough; the places of the others stay free.
 
 #include "search.glsl"
+#include "pairs.h"
 
 layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) writeonly buffer Records {
     uvec4 records[];  // direction, edge of A, sample on it, word
 };
-layout(std430, set = 0, binding = 2) writeonly buffer RecordWords {
-    uint record_words[];  // the same memory: behind all records, their depths for the host
-};
+
+bool is_asked_for(uint direction) {
+    uint flags = row_undecided | row_to_resolve;
+    return (push.flags & search_packs_all) != 0u ||
+           (scratch_unit(push.summaries + 2u * direction).w & flags) != 0u;
+}
 
 void pack(uint point, uint before) {
     uvec4 record = scratch_unit(push.point_units + point);
@@ -22,9 +27,8 @@ void pack(uint point, uint before) {
         return;
     }
     record.x &= (1u << local_shift) - 1u;
-    records[target] = record;
-    if (!finds_pairs) {
-        record_words[4u * push.capacity + target] = scratch_word(push.depths + point);
+    if (is_asked_for(record.x)) {
+        records[target] = record;
     }
 }
 

@@ -26,8 +26,12 @@ float largest(vec4 v) {
     return max(max(v.x, v.y), max(v.z, v.w));
 }
 
-#include "left_out.glsl"
 #include "nearest_edges.glsl"
+
+// Points that are not farther from the boundary may be on either side.
+float near_boundary_of(float margin) {
+    return 2.0 * margin;
+}
 
 Points points_at(vec4 x, vec4 y) {
     vec2 low = vec2(least(x), least(y));
@@ -203,21 +207,12 @@ void main() {
         batch = batch_at(index);
         words = resolve_batch(batch, edges, depths);
     }
-    uint left_out = 0u;
-    if (!finds_pairs && push.summarizes != 0u) {
-        left_out = leave_out(batch.direction, depths, words);
-    }
     uvec4 found = uvec4(notEqual(words, uvec4(0u)));
     uint before = sum_before(found.x + found.y + found.z + found.w,
                              push.block_sums + thread / search_block);
     for (uint i = 0u; i < points_per_thread && index + i < total; ++i) {
-        uint number = batch.number[i];
-        if (found[i] != 0u) {
-            number |= left_out << left_out_shift;
-            left_out = 0u;
-        }
         scratch_units[push.point_units + index + i] =
-            uvec4(batch.direction | before << local_shift, edges[i], number, words[i]);
+            uvec4(batch.direction | before << local_shift, edges[i], batch.number[i], words[i]);
         scratch[push.depths + index + i] =
             floatBitsToUint(found[i] != 0u ? depths[i] : nothing_found);
         before += found[i];

@@ -9,6 +9,13 @@ uint threads_for(uint points) {
     return (points + points_per_thread - 1u) / points_per_thread;
 }
 
+// Before anything is counted: some searches do without these stages.
+void begin_totals() {
+    for (uint stage = 0u; stage < stages; ++stage) {
+        scratch[stage] = scratch[first_counted + stage] = 0u;
+    }
+}
+
 // Says how many elements a stage has counted, and how many of them there is room for.
 void write_total(uint stage, uint total, uint capacity) {
     uint room = min(total, capacity);

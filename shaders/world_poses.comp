@@ -171,7 +171,7 @@ uint answer_for(PoseData pose) {
     uint goal = finds_instances;
     Test test;
     test.direction = SearchDirectionData(vec2(1.0, 0.0), vec2(0.0), 0u, 0u, 0u, 0u, 0.0, 0.0, 0.0, 0.0,
-                                         0.0, 0.0, float[2](0.0, 0.0));
+                                         0.0, 0.0, 0u, 0u);
     test.verdict = 0u;
     Search search = start_search();
     for (uint steps = 0u; steps < max_pose_steps; ++steps) {

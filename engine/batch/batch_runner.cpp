@@ -57,7 +57,7 @@ void BatchRunner::make_tile_batches() {
         planning_->builder.forget_shapes();
         build_tile_batches();
     }
-    search_count_ = planning_->searches.build(plan_, planning_->rule.largest_range, searches_);
+    planning_->pairs.build(plan_, planning_->rule.largest_range, pairs_);
     resident_outputs_builder_.build(plan_, tile_batches, results_.results, resident_);
 }
 
@@ -73,7 +73,7 @@ void BatchRunner::plan_batch(plan::Submissions submissions) {
     } catch (const Interrupted& interrupted) {
         plan::Planner::plan_nothing(queries_, interrupted.status(), plan_, results);
         decoder_.begin_batch(plan_);
-        search_count_ = 0;
+        pairs_.clear();
         resident_.clear();
     }
     results_.timings.localize += plan_.localize_milliseconds;
@@ -98,9 +98,7 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
                                             : render::SampleRoom::likely;
         renderer_->prepare(std::span(tile_batches_).first(plan_.tile_batches), resident_,
                            plan_.extent, room, *slot_, timings);
-        renderer_->prepare_searches(planning_->searches.shapes(),
-                                    std::span(searches_).first(search_count_), room, *slot_,
-                                    timings);
+        renderer_->prepare_search(planning_->pairs.shapes(), pairs_, room, *slot_, timings);
         laps.next();
     }
 }
@@ -121,7 +119,7 @@ void BatchRunner::trim() noexcept {
 
 /// Resident records need the device even without tile batches: to state that there are none.
 bool BatchRunner::has_device_work() const {
-    return plan_.tile_batches > 0 || search_count_ > 0 || !resident_.empty();
+    return plan_.tile_batches > 0 || !pairs_.directions.empty() || !resident_.empty();
 }
 
 void BatchRunner::answer_on_cpu(Laps& laps) {
@@ -223,6 +221,7 @@ void BatchRunner::wait() {
 void BatchRunner::read_back(Laps& laps) {
     Timings& timings = results_.timings;
     while (submission_state() != render::SubmissionState::none) {
+        const bool was_recorded = submission_state() == render::SubmissionState::recorded;
         wait();
         laps.next();
         for (const std::uint32_t number : slot_->running()) {
@@ -231,19 +230,33 @@ void BatchRunner::read_back(Laps& laps) {
                 decode(number);
             }
         }
-        for (const std::uint32_t number : slot_->running_searches()) {
-            if (slot_->search(number).had_room()) {
-                checkpoint();
-                decoder_.add_found(searches_[number], slot_->search(number).found(),
-                                   slot_->search(number).depths(), plan_);
-            }
-        }
+        take_found_pairs(was_recorded);
         timings.decode += laps.next();
-        if (renderer_->submit_those_without_room(*slot_, timings)) {
+        if (!was_recorded && renderer_->submit_those_without_room(*slot_, timings)) {
             submitted_ = {};
             device_milliseconds_.reset();
             laps.next();
         }
+    }
+}
+
+/// What the host has submitted is not repeated: the CPU answers what there was no room for.
+void BatchRunner::take_found_pairs(bool was_recorded) {
+    const render::GivenSearch* const search = slot_->running_search();
+    if (search == nullptr) {
+        return;
+    }
+    if (!search->had_room()) {
+        if (was_recorded) {
+            decoder_.pairs().leave_to_cpu();
+            slot_->run_those_without_room();  // the next commands have room
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < search->found().parts(); ++i) {
+        checkpoint();
+        const render::PairPartMemory& part = search->found().part(i);
+        decoder_.pairs().add(part.rows(), part.records());
     }
 }
 

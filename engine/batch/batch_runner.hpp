@@ -27,7 +27,7 @@ struct Planning {
     TechniqueRule rule;
     plan::Planner planner;
     plan::TileBatchBuilder builder;
-    plan::PointSearchBuilder searches;
+    plan::GivenPairsBuilder pairs;
     results::AnswerJobs answers;
 
     Planning(const plan::PlanLimits& limits, const std::optional<DeviceThresholds>& thresholds,
@@ -99,8 +99,9 @@ public:
         return renderer_ == nullptr ? 0.0 : renderer_->pipeline_milliseconds();
     }
     [[nodiscard]] const plan::Plan& plan() const { return plan_; }
-    [[nodiscard]] std::span<const std::uint32_t> point_words() const {
-        return decoder_.point_words();
+    /// The points of a planned query, as the device has answered them.
+    [[nodiscard]] records::QueryPoints points_of(std::uint32_t query) const {
+        return decoder_.device().points_of(plan_, query);
     }
 
 private:
@@ -116,6 +117,7 @@ private:
     void plan_batch(plan::Submissions submissions);
     void wait();
     void read_back(Laps& laps);
+    void take_found_pairs(bool was_recorded);
     void decode(std::uint32_t number);
     template <class Query>
     void require_resident(QueryHandle<Query> handle) const;
@@ -129,8 +131,7 @@ private:
     std::vector<plan::QueryShapes> shapes_;  // by query
     plan::Plan plan_;
     std::vector<plan::TileBatch> tile_batches_;  // the first Plan::tile_batches of them
-    std::vector<plan::PointSearch> searches_;    // the first search_count_ of them
-    std::size_t search_count_ = 0;
+    plan::GivenPairs pairs_;                     // that the device searches
     resident::ResidentOutputsBuilder resident_outputs_builder_;
     plan::ResidentOutputs resident_;
     results::ResultDecoder decoder_;

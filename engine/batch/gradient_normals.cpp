@@ -40,7 +40,10 @@ void GradientNormals::apply(BatchRunner& main) {
         try {
             {
                 const plan::QueryTimer timer(main.plan().times, index, &QueryTime::answer);
-                decoder_.find(main.plan(), planned, main.point_words(), result.cell, contacts_);
+                const std::uint32_t reverse = planned.points().reverse;
+                decoder_.find({planned, main.points_of(index)},
+                              {main.plan().queries[reverse], main.points_of(reverse)}, result.cell,
+                              contacts_);
             }
             set_normals(planned, result, results.timings);
             if (result.status.ok()) {

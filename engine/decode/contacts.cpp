@@ -6,31 +6,28 @@ namespace {
 
 using plan::PlannedQuery;
 
-/// Calls `use(planned point, resolved point)` for each point of a query within a given distance of
-/// B.
+/// Calls `use(place, resolved point)` for each point within a given distance of B.
 template <class Use>
-void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
-                   std::span<const std::uint32_t> words, double distance,
+void for_each_near(const ContactDecoder::Direction& direction, double distance,
                    records::PointResolver& resolver, const Use& use) {
-    resolver.begin(plan, query, words);
-    resolver.for_each([words](std::uint32_t i) { return (words[i] & plan::point_resolved) != 0; },
+    resolver.begin(direction.query, direction.points);
+    resolver.for_each([](std::uint32_t word) { return (word & plan::point_resolved) != 0; },
                       [&](std::uint32_t i, const records::ResolvedPoint& resolved) {
                           if (resolved.distance <= distance) {
-                              use(plan.points[i], resolved);
+                              use(resolver.place(i), resolved);
                           }
                       });
 }
 
 }  // namespace
 
-void ContactDecoder::find(const plan::Plan& plan, const PlannedQuery& query,
-                          std::span<const std::uint32_t> words, double cell,
+void ContactDecoder::find(const Direction& of_a, const Direction& of_b, double cell,
                           records::FoundContacts& found) {
-    const PlannedQuery& reverse = plan.queries[query.points().reverse];
-    if (query.points().count == 0 && reverse.points().count == 0) {
+    if (of_a.points.empty() && of_b.points.empty()) {
         found.begin(cell, 0.0);
         return;
     }
+    const PlannedQuery& query = of_a.query;
     const geometry::TransformedPolygon a(*query.a, query.pose_a);
     const geometry::TransformedPolygon b(*query.b, query.pose_b);
     found.begin(
@@ -39,13 +36,13 @@ void ContactDecoder::find(const plan::Plan& plan, const PlannedQuery& query,
     const auto boundary_of_b = [this]() -> narrowphase::Boundary& {
         return a_in_b_.boundary_of_b();
     };
-    for_each_near(plan, query, words, near, a_in_b_,
-                  [&](const plan::PlannedPoint& planned, const records::ResolvedPoint& resolved) {
-                      found.add_of_a(planned.point, resolved, boundary_of_b);
+    for_each_near(of_a, near, a_in_b_,
+                  [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
+                      found.add_of_a(place, resolved, boundary_of_b);
                   });
-    for_each_near(plan, reverse, words, near, b_in_a_,
-                  [&](const plan::PlannedPoint& planned, const records::ResolvedPoint& resolved) {
-                      found.add_of_b(planned.point, resolved, boundary_of_b());
+    for_each_near(of_b, near, b_in_a_,
+                  [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
+                      found.add_of_b(place, resolved, boundary_of_b());
                   });
     found.decide_normals(boundary_of_b);
 }

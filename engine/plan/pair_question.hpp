@@ -21,21 +21,31 @@ enum class FoundPoints : std::uint8_t {
     compared,  ///< nothing
     numbered,  ///< they have numbers, for results that stay on the device
     packed,    ///< the host reads them, in the order of their numbers
+    asked,     ///< likewise, but for those of which the pair's row tells all that is asked
 };
 
-/// What the passes of a search between the pairs of a world depend on.
+/// What the passes of a search between pairs depend on.
 struct PairSearchKind {
     PairGoal goal{};
     FoundPoints points{};
 
+    /// Each pair that a batch gives says whether its points are asked for. The pairs of a world are
+    /// found.
+    [[nodiscard]] bool are_given() const { return points == FoundPoints::asked; }
+    [[nodiscard]] bool reads_points() const {
+        return points == FoundPoints::packed || points == FoundPoints::asked;
+    }
     friend bool operator==(const PairSearchKind&, const PairSearchKind&) = default;
 };
-inline constexpr std::array<PairSearchKind, 5> pair_search_kinds{
+/// Of the pairs of a batch, whatever its queries ask about points.
+inline constexpr PairSearchKind given_pairs{PairGoal::penetrations, FoundPoints::asked};
+inline constexpr std::array<PairSearchKind, 6> pair_search_kinds{
     {{PairGoal::penetrations, FoundPoints::compared},
      {PairGoal::penetrations, FoundPoints::numbered},
      {PairGoal::penetrations, FoundPoints::packed},
      {PairGoal::contacts, FoundPoints::packed},
-     {PairGoal::tests, FoundPoints::compared}}};
+     {PairGoal::tests, FoundPoints::compared},
+     given_pairs}};
 
 /// What a query asks of the device about every pair of a world's instances. World units.
 struct PairQuestion {

@@ -59,9 +59,6 @@ struct PlannedPoint {
 
     BoundaryPoint point;
     std::uint32_t tile = 0;
-    /// Of points that the device has found: their distance from B's boundary, world units, up to
-    /// the errors of single precision. Negative: unknown.
-    float depth = -1.0F;
 };
 
 /// A point at which a field is reconstructed, between four cells of a tile.
@@ -80,7 +77,7 @@ struct PlannedFieldPoint {
 enum class PointSource : std::uint8_t {
     planner,      ///< they are in Plan::points
     brute_force,  ///< Technique::cpu: PointPenetration or PointContacts visits all of them
-    device,       ///< Technique::compute: PointSearch finds them, and they are appended to the plan
+    device,       ///< Technique::compute: its search between pairs (Plan::searched) finds them
 };
 
 /// The points of A's boundary that a query, or one direction of it, resolves in the field of B.
@@ -93,8 +90,6 @@ struct PlannedPoints {
     std::uint32_t count = 0;
     /// Only the number of penetrating points and the deepest are asked for.
     bool summarized = false;
-    /// Points inside that the device has counted and left out: they are not the deepest.
-    std::uint32_t left_out = 0;
     double margin = 0.0;  ///< where the device finds them: bound on its errors, world units
     /// Index in Plan::queries of the other direction: points of B in the field of A.
     std::uint32_t reverse = none;

@@ -25,7 +25,7 @@ constexpr double bytes_per_point =
 // The same for a resident point: its details, its table entry, its record.
 constexpr double bytes_per_resident_point = 16.0 + 16.0 + 40.0;
 // What is kept of a point that the device finds, beside its record.
-constexpr double bytes_of_found = sizeof(PlannedPoint) + sizeof(std::uint32_t);
+constexpr double bytes_of_found = sizeof(FoundPointData);
 
 double bytes_of_point(const PlannedQuery& query) {
     return bytes_per_point + (query.resident ? bytes_per_resident_point : 0.0);

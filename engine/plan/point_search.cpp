@@ -49,24 +49,6 @@ SearchDirectionData direction_of(const PlannedQuery& query, const Vector& axis,
     return data;
 }
 
-/// Whether the scratch memory of a search, which is the largest of its buffers, has room for
-/// another query, even if all its edges and points are looked at (render::ScratchLayout).
-bool has_room(const PointSearch& search, const SearchedQuery& more, std::uint64_t largest_range) {
-    // 20 bytes and a little for sums. Of each edge 32, 8 for each chunk, of which there is one per
-    // three edges at most, and three points for each direction, which has at least three edges.
-    constexpr double bytes_per_point = 21.0;
-    constexpr double bytes_per_edge = 60.0;
-    constexpr double few = 1U << 16U;
-    // Vulkan promises that so much can be allocated at once.
-    constexpr std::uint64_t largest_allocation = std::uint64_t{1} << 30U;
-    // Their data takes a quarter of the least range that Vulkan promises.
-    constexpr std::size_t max_directions = std::size_t{1} << 19U;
-    const double bytes = bytes_per_point * (search.max_points + more.max_points) +
-                         bytes_per_edge * (search.max_edges + static_cast<double>(more.a->size()));
-    return bytes + few <= static_cast<double>(std::min(largest_range, largest_allocation)) &&
-           search.directions.size() < max_directions;
-}
-
 }  // namespace
 
 SearchedQuery searched_query(std::uint32_t index, const PlannedQuery& query, const Vector& axis,
@@ -85,55 +67,36 @@ void FoundPlaces::enter(std::uint32_t edge) {
     parts_ = parts_of_length((vertices[a_.next(edge)] - vertices[edge]).norm(), cell_);
 }
 
-std::size_t PointSearchBuilder::build(const Plan& plan, std::uint64_t largest_range,
-                                      std::vector<PointSearch>& searches) {
+void GivenPairsBuilder::build(const Plan& plan, std::uint64_t largest_range, GivenPairs& pairs) {
+    pairs.clear();
     if (plan.searched.empty()) {
-        return 0;
+        return;
     }
     shapes_.begin_batch();
-    std::size_t count = fill(plan, largest_range, searches);
+    fill(plan, pairs);
     if (shapes_.units().size_bytes() > largest_range) {
         shapes_.clear();
-        count = fill(plan, largest_range, searches);
+        pairs.clear();
+        fill(plan, pairs);
     }
-    return count;
 }
 
-std::size_t PointSearchBuilder::fill(const Plan& plan, std::uint64_t largest_range,
-                                     std::vector<PointSearch>& searches) {
-    std::size_t count = 0;
+void GivenPairsBuilder::fill(const Plan& plan, GivenPairs& pairs) {
+    SparseCheckpoint<64> checkpoint;
     for (const SearchedQuery& searched : plan.searched) {
-        checkpoint();
-        if (count == 0 || !has_room(searches[count - 1], searched, largest_range)) {
-            searches.resize(std::max(searches.size(), ++count));
-            searches[count - 1].clear();
+        checkpoint.step();
+        SearchDirectionData& data = pairs.directions.emplace_back(searched.data);
+        data.a = searched.query;
+        data.shape_a = shapes_.place(*searched.a);
+        data.shape_b = shapes_.place(*searched.b);
+        if (searched.spacing > 0.0) {
+            data.parts = shapes_.place_parts(*searched.a, searched.spacing);
         }
-        PointSearch& search = searches[count - 1];
-        search.max_points += searched.max_points;
-        search.max_edges += static_cast<double>(searched.a->size());
-        add(searched, search);
+        data.first_item = pairs.items;
+        pairs.items += shapes_.units()[data.shape_a][0];  // its number of chunks
+        pairs.max_edges += static_cast<double>(searched.a->size());
+        pairs.max_points += searched.max_points;
     }
-    return count;
-}
-
-void PointSearchBuilder::add(const SearchedQuery& searched, PointSearch& search) {
-    SearchDirectionData& data = search.directions.emplace_back(searched.data);
-    search.summarizes = search.summarizes || data.touching >= 0.0F;
-    data.shape_a = shapes_.place(*searched.a);
-    data.shape_b = shapes_.place(*searched.b);
-    if (searched.spacing > 0.0) {
-        data.parts = shapes_.place_parts(*searched.a, searched.spacing);
-    }
-    data.first_item = search.items;
-    // Of each block of items, the direction of its first one.
-    const auto direction = static_cast<std::uint32_t>(search.queries.size());
-    const std::uint32_t end =
-        search.items + shapes_.units()[data.shape_a][0];  // its number of chunks
-    while (search_block * search.first_directions.size() < end) {
-        search.first_directions.push_back(direction);
-    }
-    search.items = end;
-    search.queries.push_back(searched.query);
 }
 
 }  // namespace nearfield::plan

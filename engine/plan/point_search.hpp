@@ -5,7 +5,6 @@
 
 #include <shaders/search.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -47,46 +46,33 @@ private:
     double parts_ = 1.0;
 };
 
-/// A part of a batch's searches, small enough for the buffers of one.
-struct PointSearch {
+/// The pairs that a batch gives to the device's search, as it takes them.
+struct GivenPairs {
     std::vector<SearchDirectionData> directions;
-    std::vector<std::uint32_t> queries;  ///< by direction: index in Plan::queries
     std::uint32_t items = 0;
-    std::vector<std::uint32_t> first_directions;  ///< by block of items: of its first item
-    double max_edges = 0.0;                       ///< upper bounds on what the device may find
+    double max_edges = 0.0;  ///< upper bounds on what the device may find
     double max_points = 0.0;
-    /// Of some directions the number of points and the deepest alone are asked for.
-    bool summarizes = false;
 
     void clear() {
         directions.clear();
-        queries.clear();
         items = 0;
-        first_directions.clear();
         max_edges = max_points = 0.0;
-        summarizes = false;
     }
 };
 
 /// Points of A's boundary at most, of a query or a pair.
 inline constexpr double max_searched_points = 1U << 21U;
-static_assert(max_searched_points < 1U << left_out_shift);
 
 /// Turns the searched queries of a plan into the device's input.
-class PointSearchBuilder {
+class GivenPairsBuilder {
 public:
-    /// Fills the first searches of `searches`, which grows as needed, and returns their number: as
-    /// few as have buffers of at most `largest_range` bytes whatever the device finds. Shapes of
-    /// earlier plans are kept as long as all take no more than that.
-    std::size_t build(const Plan& plan, std::uint64_t largest_range,
-                      std::vector<PointSearch>& searches);
-    /// The shapes of the last build, and more; the input starts with them.
+    /// Shapes of earlier plans are kept as long as all take no more than `largest_range` bytes.
+    void build(const Plan& plan, std::uint64_t largest_range, GivenPairs& pairs);
+    /// The shapes of the last build, and more.
     [[nodiscard]] const SearchShapes& shapes() const { return shapes_; }
 
 private:
-    std::size_t fill(const Plan& plan, std::uint64_t largest_range,
-                     std::vector<PointSearch>& searches);
-    void add(const SearchedQuery& searched, PointSearch& search);
+    void fill(const Plan& plan, GivenPairs& pairs);
 
     SearchShapes shapes_;
 };

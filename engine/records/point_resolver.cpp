@@ -2,12 +2,12 @@
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/asked_points.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/point_search.hpp>
 #include <engine/records/nearest_feature.hpp>
 #include <engine/records/point_resolver.hpp>
 
 #include <shaders/search.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -24,11 +24,27 @@ constexpr double farthest_in_single_precision = 1024.0;
 
 }  // namespace
 
-void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& query,
-                          std::span<const std::uint32_t> words) {
-    plan_ = &plan;
+/// The points that the device has found, as if they had been planned.
+void PointResolver::take(std::span<const plan::FoundPointData> found) {
+    places_of_found_.resize(found.size());
+    words_of_found_.resize(found.size());
+    plan::FoundPlaces place_of(*query_);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        places_of_found_[i] = {place_of(found[i]), plan::PlannedPoint::no_tile};
+        words_of_found_[i] = found[i].word;
+    }
+    places_ = places_of_found_;
+    words_ = words_of_found_;
+}
+
+void PointResolver::begin(const plan::PlannedQuery& query, const QueryPoints& points) {
     query_ = &query;
-    words_ = words;
+    places_ = points.points;
+    words_ = points.words;
+    tiles_ = points.tiles;
+    if (!points.found.empty()) {
+        take(points.found);
+    }
     a_ = recent_.place(*query.a, query.pose_a);
     positions_.emplace(*a_);
     b_ = recent_.place(*query.b, query.pose_b);
@@ -65,7 +81,7 @@ narrowphase::Boundary& PointResolver::boundary_of_b() {
 void PointResolver::locate_doubtful(std::uint32_t first) {
     static_cast<void>(boundary_of_b());
     const simd::TransformedEdges& b = instances_[0];
-    const std::uint32_t end = query_->points().end();
+    const auto end = static_cast<std::uint32_t>(places_.size());
     const std::size_t at_once = narrowphase::points_at_once(b.count);
     points_.clear();
     next_ = 0;
@@ -73,7 +89,7 @@ void PointResolver::locate_doubtful(std::uint32_t first) {
     for (std::uint32_t i = first; i < end && points_.size() < at_once; ++i) {
         checkpoint.step();
         if ((words_[i] & plan::point_doubtful) != 0) {
-            const Vector point = position(*a_, plan_->points[i].point);
+            const Vector point = position(*a_, places_[i].point);
             points_.reserve(points_.size() + 1);
             points_.push(point.x(), point.y());
         }
@@ -122,7 +138,7 @@ std::uint32_t PointResolver::resolve_far(std::uint32_t i) {
 
 std::size_t PointResolver::list_penetrations(double tolerance,
                                              std::vector<PenetrationRecord>& records) {
-    records.resize(query_->points().count);
+    records.resize(places_.size());
     std::size_t count = 0;
     std::size_t deepest = 0;
     double depth = 0.0;
@@ -138,39 +154,24 @@ std::size_t PointResolver::list_penetrations(double tolerance,
     return deepest;
 }
 
-/// Whether a point that the device has found is inside B and deeper than `depth` for certain.
-bool PointResolver::is_deeper(std::uint32_t index, double depth) const {
-    constexpr std::uint32_t side = plan::point_inside | plan::point_doubtful;
-    return (words_[index] & side) == plan::point_inside &&
-           plan_->points[index].depth > depth + plan::depth_margins * query_->points().margin;
+PenetrationSummary PointResolver::summarize_penetration(double tolerance) {
+    PenetrationSummary summary;
+    for_each_penetration(tolerance, [&](const ResolvedPoint& resolved) {
+        if (resolved.distance > summary.deepest.depth) {
+            write(resolved, summary.deepest);
+        }
+        ++summary.count;
+    });
+    return summary;
 }
 
-PenetrationSummary PointResolver::summarize_penetration(double tolerance) {
-    const double touching = tolerance * static_cast<double>(plan::touching_depth);
-    const plan::PlannedPoints& points = query_->points();
-    double deepest = 0.0;
-    for (std::uint32_t i = points.first; i < points.end(); ++i) {
-        if (is_deeper(i, touching)) {
-            deepest = std::max(deepest, static_cast<double>(plan_->points[i].depth));
-        }
-    }
-    // Points that are not as deep as this are not the deepest.
-    const double deep = deepest - 2.0 * plan::depth_margins * points.margin;
-    PenetrationSummary summary;
-    summary.count = points.left_out;
-    const auto may_be_deepest = [&](std::uint32_t i) {
-        const bool is_less_deep = is_deeper(i, touching) && plan_->points[i].depth < deep;
-        summary.count += is_less_deep ? 1 : 0;
-        return !is_less_deep;
-    };
-    for_each(may_be_deepest, [&](std::uint32_t index, const ResolvedPoint& resolved) {
-        if (is_deeper(index, touching) || (resolved.inside && resolved.distance > touching)) {
-            ++summary.count;
-            if (resolved.distance > summary.deepest.depth) {
-                write(resolved, summary.deepest);
-            }
-        }
-    });
+PenetrationSummary PointResolver::summarize_penetration(const plan::PlannedQuery& query,
+                                                        const plan::PairRowData& row,
+                                                        double tolerance) {
+    const plan::FoundPointData deepest{0, row.edge, row.number, row.word};
+    begin(query, {.found = {&deepest, 1}});
+    PenetrationSummary summary = summarize_penetration(tolerance);
+    summary.count = row.count & plan::row_count_mask;
     return summary;
 }
 

@@ -11,6 +11,7 @@
 #include <nearfield/result.hpp>
 
 #include <shaders/layout.h>
+#include <shaders/pairs.h>
 
 #include <array>
 #include <cstddef>
@@ -33,6 +34,18 @@ inline void write(const ResolvedPoint& resolved, PenetrationRecord& record) {
     record.unique = resolved.unique;
 }
 
+/// Points of A's boundary of a query, or of one direction of it, with what the device found out
+/// about each of them.
+struct QueryPoints {
+    std::span<const plan::PlannedPoint> points{};
+    std::span<const std::uint32_t> words{};  ///< by point: as plan::point_inside
+    std::span<const plan::Tile> tiles{};     ///< that the points name
+    /// In place of all this: those that the device has found.
+    std::span<const plan::FoundPointData> found{};
+
+    [[nodiscard]] bool empty() const { return points.empty() && found.empty(); }
+};
+
 /// How many points penetrate B, and the deepest of them, if any; the first of several.
 struct PenetrationSummary {
     std::uint32_t count = 0;
@@ -42,23 +55,22 @@ struct PenetrationSummary {
 /// Makes the device's answers for the points of a query, or of one direction of it, exact.
 class PointResolver {
 public:
-    /// `words`: what the device wrote, by point of the plan. Plan and words must stay.
-    void begin(const plan::Plan& plan, const plan::PlannedQuery& query,
-               std::span<const std::uint32_t> words);
+    /// Query and points must stay.
+    void begin(const plan::PlannedQuery& query, const QueryPoints& points);
 
-    /// Calls `use(index, resolved point)` for the query's points that are wanted, in their order.
-    /// `is_wanted(index)`: whether the point at an index of Plan::points is, whose word is then not
-    /// zero. All that are in doubt are wanted.
+    /// Calls `use(index, resolved point)` for the points that are wanted, in their order.
+    /// `is_wanted(word)`: whether those with this word are, which is then not zero. All that are in
+    /// doubt are wanted.
     template <class IsWanted, class Use>
     void for_each(const IsWanted& is_wanted, const Use& use) {
-        const std::uint32_t end = query_->points().end();
+        const auto end = static_cast<std::uint32_t>(places_.size());
         SparseCheckpoint<4> checkpoint;
-        for (std::uint32_t i = query_->points().first; i < end;) {
+        for (std::uint32_t i = 0; i < end;) {
             checkpoint.step();
             block_.clear();
             for (; i < end && !block_.is_full(); ++i) {
-                if (is_wanted(i)) {
-                    block_.add(i, (*positions_)(plan_->points[i].point),
+                if (is_wanted(words_[i])) {
+                    block_.add(i, (*positions_)(places_[i].point),
                                words_[i] & plan::point_edge_mask);
                 }
             }
@@ -78,8 +90,8 @@ public:
     template <class Use>
     void for_each_penetration(double tolerance, const Use& use) {
         const double touching = tolerance * static_cast<double>(plan::touching_depth);
-        const auto may_be_inside = [this](std::uint32_t i) {
-            return (words_[i] & (plan::point_inside | plan::point_doubtful)) != 0;
+        const auto may_be_inside = [](std::uint32_t word) {
+            return (word & (plan::point_inside | plan::point_doubtful)) != 0;
         };
         for_each(may_be_inside, [&](std::uint32_t, const ResolvedPoint& resolved) {
             if (resolved.inside && resolved.distance > touching) {
@@ -93,10 +105,17 @@ public:
     /// the list is as long as all points at first, which spares initialising what it held before.
     std::size_t list_penetrations(double tolerance, std::vector<PenetrationRecord>& records);
 
-    /// What for_each_penetration() tells of points that the device has found, at less cost: it
-    /// makes only those exact that may just touch, or may be the deepest.
+    /// What for_each_penetration() tells.
     [[nodiscard]] PenetrationSummary summarize_penetration(double tolerance);
+    /// The same of a query about which the device has found out enough to need none of its points.
+    [[nodiscard]] PenetrationSummary summarize_penetration(const plan::PlannedQuery& query,
+                                                           const plan::PairRowData& row,
+                                                           double tolerance);
 
+    /// Where a point lies on A's boundary.
+    [[nodiscard]] const plan::BoundaryPoint& place(std::uint32_t index) const {
+        return places_[index].point;
+    }
     [[nodiscard]] const geometry::TransformedPolygon& a() const { return *a_; }
     [[nodiscard]] const geometry::TransformedPolygon& b() const { return *b_; }
     /// For queries that the device leaves open.
@@ -109,13 +128,16 @@ private:
     void locate_doubtful(std::uint32_t first);
     /// Points nearer to the boundary than this touch it.
     [[nodiscard]] double touching(std::uint32_t index) const {
-        return touching_ ? *touching_ : touching_distance(plan_->tiles[plan_->points[index].tile]);
+        return touching_ ? *touching_ : touching_distance(tiles_[places_[index].tile]);
     }
-    [[nodiscard]] bool is_deeper(std::uint32_t index, double depth) const;
+    void take(std::span<const plan::FoundPointData> found);
 
-    const plan::Plan* plan_ = nullptr;
     const plan::PlannedQuery* query_ = nullptr;
+    std::span<const plan::PlannedPoint> places_;
     std::span<const std::uint32_t> words_;
+    std::span<const plan::Tile> tiles_;
+    std::vector<plan::PlannedPoint> places_of_found_;
+    std::vector<std::uint32_t> words_of_found_;
     geometry::RecentlyPlaced recent_{64};
     std::optional<geometry::TransformedPolygon> a_;
     std::optional<geometry::TransformedPolygon> b_;

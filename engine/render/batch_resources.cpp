@@ -94,7 +94,7 @@ std::uint64_t BatchResources::align(std::uint64_t offset) const {
 void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
                             const plan::ResidentOutputs& resident) {
     make_room_for(tile_batches.size());
-    running_searches_.clear();
+    is_searching_ = false;
     has_resident_outputs_ = !resident.empty();
     passes_ = static_cast<std::uint32_t>(tile_batches.size()) * max_passes;
     if (has_resident_outputs_) {
@@ -127,18 +127,14 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     mesh_.flush();
 }
 
-void BatchResources::upload_searches(const plan::SearchShapes& shapes,
-                                     std::span<const plan::PointSearch> searches,
-                                     const SearchCounts& expected) {
-    const auto count = static_cast<std::uint32_t>(searches.size());
-    timestamps_.reserve(passes_ + count * passes::PointSearch::pass_count);
-    while (searches_.size() < searches.size()) {
-        searches_.push_back(std::make_unique<SearchBuffers>(*device_, *layout_));
+void BatchResources::upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+                                   const PairCounts& expected) {
+    if (search_ == nullptr) {
+        search_ = std::make_unique<GivenSearch>(*device_, *layout_);
     }
-    for (std::uint32_t number = 0; number < count; ++number) {
-        searches_[number]->upload(shapes, searches[number], expected);
-        running_searches_.push_back(number);
-    }
+    search_->upload(shapes, pairs, expected);
+    timestamps_.reserve(passes_ + search_->passes());
+    is_searching_ = true;
 }
 
 void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& input_end,
@@ -202,10 +198,10 @@ void BatchResources::run_those_without_room() {
     for (const std::uint32_t number : running_) {
         tile_batches_[number].sample_capacity = tile_batches_[number].sample_count;
     }
-    std::erase_if(running_searches_,
-                  [&](std::uint32_t number) { return searches_[number]->had_room(); });
-    for (const std::uint32_t number : running_searches_) {
-        searches_[number]->grow();
+    is_searching_ = is_searching_ && !search_->had_room();
+    if (is_searching_) {
+        search_->grow();
+        timestamps_.reserve(passes_ + search_->passes());
     }
 }
 
@@ -258,8 +254,8 @@ void BatchResources::wait() {
     if (recorded) {
         require_stamp();
     }
-    for (const std::uint32_t number : running_searches_) {
-        searches_[number]->read_back();
+    if (is_searching_) {
+        search_->read_back();
     }
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];

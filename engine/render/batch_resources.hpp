@@ -8,8 +8,8 @@
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/compiled_graph.hpp>
 #include <engine/render/compute_buffers.hpp>
+#include <engine/render/given_search.hpp>
 #include <engine/render/resident_buffers.hpp>
-#include <engine/render/search_buffers.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
 #include <passes/copy_back.hpp>
@@ -79,14 +79,12 @@ public:
     /// Lays out the outputs of the selected tile batches and points their descriptor sets to them.
     void lay_out_output();
 
-    /// Uploads searches for points, after the tile batches; `shapes`: what their input starts with.
-    void upload_searches(const plan::SearchShapes& shapes,
-                         std::span<const plan::PointSearch> searches, const SearchCounts& expected);
-    [[nodiscard]] std::span<const std::uint32_t> running_searches() const {
-        return running_searches_;
-    }
-    [[nodiscard]] const SearchBuffers& search(std::uint32_t number) const {
-        return *searches_[number];
+    /// Uploads the pairs that are searched, after the tile batches; see GivenSearch::upload().
+    void upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+                       const PairCounts& expected);
+    /// The search of the commands; null if they have none.
+    [[nodiscard]] const GivenSearch* running_search() const {
+        return is_searching_ ? search_.get() : nullptr;
     }
 
     [[nodiscard]] TileBatchOnDevice& tile_batch(std::uint32_t number) {
@@ -175,8 +173,8 @@ private:
     std::vector<std::unique_ptr<ComputeBuffers>> compute_;
     std::vector<TileBatchOnDevice> tile_batches_;
     std::vector<std::uint32_t> running_;
-    std::vector<std::unique_ptr<SearchBuffers>> searches_;
-    std::vector<std::uint32_t> running_searches_;
+    std::unique_ptr<GivenSearch> search_;  // null until there are pairs to search
+    bool is_searching_ = false;
     SubmissionState state_ = SubmissionState::none;
     std::uint64_t stamp_offset_ = 0;  // in the read-back, which holds 0 there until execution
     std::uint32_t stamp_ = 0;

@@ -1,5 +1,4 @@
 #include <engine/render/instance_buffers.hpp>
-#include <engine/render/search_memory.hpp>
 
 #include <algorithm>
 
@@ -24,9 +23,7 @@ std::uint64_t units_of_boxes(std::uint32_t instances) {
 }
 
 InstanceBuffers::InstanceBuffers(const gpu::Device& device)
-    : device_(&device),
-      shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-              gpu::Direction::upload, "nearfield pair shapes"),
+    : shapes_(device),
       instances_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
                  "nearfield pair instances") {}
 
@@ -59,17 +56,8 @@ void InstanceBuffers::set_order(std::span<const std::uint32_t> order) {
 }
 
 void InstanceBuffers::upload(const plan::SearchShapes& shapes) {
-    const auto bytes = std::as_bytes(shapes.units());
-    const bool is_new =
-        reserve_with_texels(*device_, shapes_, texels_, bytes.size(), "nearfield pair texels");
-    if (is_new || shapes.revision() != shapes_revision_) {
-        std::copy(bytes.begin(), bytes.end(), shapes_.data());
-        shapes_.flush();
-        shapes_revision_ = shapes.revision();
-        if (is_new || shape_bytes_ != bytes.size()) {
-            ++revision_;
-            shape_bytes_ = bytes.size();
-        }
+    if (shapes_.upload(shapes)) {
+        ++revision_;
     }
     instances_.flush();
 }
@@ -81,8 +69,8 @@ std::uint64_t InstanceBuffers::instance_bytes() const {
 void InstanceBuffers::write_bindings(const passes::ComputeLayout& layout,
                                      VkDescriptorSet set) const {
     using Layout = passes::ComputeLayout;
-    layout.write_buffer(set, Layout::shapes, shapes(), 0, shape_bytes_);
-    layout.write_texels(set, Layout::texels, texels());
+    layout.write_buffer(set, Layout::shapes, shapes_.handle(), 0, shapes_.bytes());
+    layout.write_texels(set, Layout::texels, shapes_.texels());
     layout.write_buffer(set, Layout::points, instances(), 0, instance_bytes());
 }
 

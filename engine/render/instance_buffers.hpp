@@ -2,8 +2,8 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/plan/search_shapes.hpp>
+#include <engine/render/search_memory.hpp>
 #include <passes/compute_layout.hpp>
 
 #include <shaders/pairs.h>
@@ -39,10 +39,7 @@ public:
     /// Differs if buffers or sizes are others than before.
     [[nodiscard]] std::uint32_t revision() const { return revision_; }
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    [[nodiscard]] VkBuffer shapes() const { return shapes_.handle(); }
-    [[nodiscard]] std::uint64_t shape_bytes() const { return shape_bytes_; }
-    /// Of the shapes.
-    [[nodiscard]] VkBufferView texels() const { return texels_.get(); }
+    [[nodiscard]] const ShapeBuffer& shapes() const { return shapes_; }
     [[nodiscard]] VkBuffer instances() const { return instances_.handle(); }
     [[nodiscard]] std::uint64_t instance_bytes() const;
     /// Lets the bindings `shapes`, with their texels, and `points` of a set be the shapes and the
@@ -50,15 +47,11 @@ public:
     void write_bindings(const passes::ComputeLayout& layout, VkDescriptorSet set) const;
 
 private:
-    const gpu::Device* device_;
-    gpu::MappedBuffer shapes_;
+    ShapeBuffer shapes_;
     gpu::MappedBuffer instances_;
-    gpu::Owned<VkBufferView> texels_;
     std::uint32_t revision_ = 0;
     std::uint32_t room_ = 0;
     std::uint32_t count_ = 0;
-    std::uint64_t shape_bytes_ = 0;
-    std::uint64_t shapes_revision_ = 0;
 };
 
 }  // namespace nearfield::render

@@ -1,35 +1,27 @@
 #pragma once
 
-#include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/render/instance_buffers.hpp>
 #include <engine/render/pair_outputs.hpp>
-#include <engine/render/pair_part_memory.hpp>
-#include <engine/render/pair_parts.hpp>
 #include <engine/render/pose_source.hpp>
+#include <engine/render/search_memory.hpp>
 #include <nearfield/timings.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/compute_sets.hpp>
 #include <passes/pair_search.hpp>
 
 #include <shaders/pairs.h>
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <span>
-#include <vector>
 
 namespace nearfield::render {
 
-/// The memory of a search for all pairs of a world's instances, with its descriptor sets and its
-/// submission, or what it has recorded for a host. It only grows. Where not all pairs fit at once,
-/// parts of them are searched one after the other, within the same commands.
+/// A search for all pairs of a world's instances: its memory and its submission, or what it has
+/// recorded for a host.
 class PairSearchBuffers {
 public:
     PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
@@ -72,45 +64,40 @@ public:
     void forget_counts() { has_results_ = false; }
 
     /// Of the last search: the pairs that it was about, and those that have rows.
-    [[nodiscard]] std::uint32_t candidates() const;
-    [[nodiscard]] std::uint32_t row_count() const;
+    [[nodiscard]] std::uint32_t candidates() const {
+        return has_results_ ? memory_.candidates() : 0;
+    }
+    [[nodiscard]] std::uint32_t row_count() const { return memory_.row_count(); }
     /// The rows that the CPU has to decide, in ascending order.
-    [[nodiscard]] std::span<const std::uint32_t> undecided() const { return undecided_; }
+    [[nodiscard]] std::span<const std::uint32_t> undecided() const { return memory_.undecided(); }
     /// In ascending order of the instances.
     [[nodiscard]] const plan::PairRowData& row(std::uint32_t number) const {
-        const PairPartMemory& part = part_of(number);
+        const PairPartMemory& part = memory_.part_of_row(number);
         return part.row(number - part.first_row());
     }
     /// Those that a row names. Only if the host reads them.
     [[nodiscard]] std::span<const plan::FoundPointData> records(std::uint32_t row,
                                                                 std::uint32_t first,
                                                                 std::uint32_t count) const {
-        return {part_of(row).records() + first, count};
+        return {memory_.part_of_row(row).records() + first, count};
     }
 
 private:
-    [[nodiscard]] const PairPartMemory& part_of(std::uint32_t row) const;
     [[nodiscard]] PairLimits limits() const;
-    void make_parts();
     void lay_out();
-    void bind() const;
     void upload(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
                 std::uint64_t memory_limit);
     // `takes_poses`: of the host; otherwise the instances are placed already.
-    // `pairs`: see PairPartMemory::clear_counts.
+    // `pairs`: see SearchMemory::clear_counts.
     void prepare(bool takes_poses, std::uint32_t pairs);
     void bind_ends(bool takes_poses);
     void write_commands(VkCommandBuffer commands, bool takes_poses);
     void submit(bool takes_poses, Timings& timings);
-    void read_counts();
-    [[nodiscard]] bool had_room() const;
     [[nodiscard]] bool were_executed() const;
     void read_results();
     void grow();
 
     const gpu::Device* device_;
-    const passes::ComputeLayout* layout_;
-    const plan::PairQuestion question_;
     gpu::Submission submission_;
     gpu::Timestamps timestamps_;
     const passes::PairSearch* passes_ = nullptr;  // of the last search, as is the limit
@@ -118,24 +105,16 @@ private:
     PoseSource poses_;
     PairOutputs outputs_;
     InstanceBuffers world_;
-    gpu::MappedBuffer scratch_;
-    gpu::MappedBuffer arguments_;
-    gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
-    passes::DescriptorSets sets_;
-    std::uint64_t scratch_bytes_ = 0;
-    PairParts parts_;
-    std::vector<std::unique_ptr<PairPartMemory>> memories_;  // of the parts; more may be left
-    std::vector<PairCounts> counts_;                         // of the parts, as they were read last
-    std::uint32_t laid_out_world_ = 0;                       // revision of the instances
-    std::uint32_t bound_poses_ = 0;    // revision of those that commands take; 0: none
-    std::uint32_t bound_outputs_ = 0;  // revision of what they leave on the device
+    SearchMemory memory_;
+    std::uint32_t laid_out_world_ = 0;  // revision of the instances
+    std::uint32_t bound_poses_ = 0;     // revision of those that commands take; 0: none
+    std::uint32_t bound_outputs_ = 0;   // revision of what they leave on the device
     bool is_submitted_ = false;
     bool is_laid_out_ = false;
     bool is_bound_ = false;     // since then, as are the next two
     bool is_recorded_ = false;  // for submit()
     bool is_for_host_ = false;  // recorded for the host
     bool has_results_ = false;  // of the last search of these parts
-    std::vector<std::uint32_t> undecided_;
 };
 
 }  // namespace nearfield::render

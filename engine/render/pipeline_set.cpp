@@ -48,8 +48,12 @@ const passes::PairSearch& PipelineSet::pair_search(const plan::PairSearchKind& k
         std::find(plan::pair_search_kinds.begin(), plan::pair_search_kinds.end(), kind);
     auto& search =
         pair_searches_[static_cast<std::size_t>(found - plan::pair_search_kinds.begin())];
-    return search ? *search
-                  : search.emplace(*device_, made(pair_shaders_, &instance_shaders()), kind);
+    if (search) {
+        return *search;
+    }
+    const passes::FoundPairShaders* const finding =
+        kind.are_given() ? nullptr : &made(found_pair_shaders_, &instance_shaders());
+    return made(search, &made(search_shaders_), finding, kind);
 }
 
 const passes::WorldQueries& PipelineSet::world_queries(plan::WorldQuestion question) const {
@@ -65,7 +69,6 @@ void PipelineSet::make(const DeviceTechniques& techniques) const {
         static_cast<void>(resolve_points());
         static_cast<void>(masks());
         static_cast<void>(fields());
-        static_cast<void>(point_search());
         static_cast<void>(pair_poses());
         static_cast<void>(export_pairs());
         for (const plan::PairSearchKind& kind : plan::pair_search_kinds) {

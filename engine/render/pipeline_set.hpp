@@ -18,16 +18,15 @@
 #include <passes/fields.hpp>
 #include <passes/fill.hpp>
 #include <passes/gradient.hpp>
-#include <passes/instance_shaders.hpp>
 #include <passes/intersect.hpp>
 #include <passes/intersection_strategies.hpp>
 #include <passes/masks.hpp>
 #include <passes/pair_poses.hpp>
 #include <passes/pair_search.hpp>
-#include <passes/point_search.hpp>
 #include <passes/resolve_field.hpp>
 #include <passes/resolve_field_points.hpp>
 #include <passes/resolve_points.hpp>
+#include <passes/search_shaders.hpp>
 #include <passes/stencil_pipelines.hpp>
 #include <passes/world_queries.hpp>
 
@@ -95,7 +94,6 @@ public:
     }
     [[nodiscard]] const passes::Masks& masks() const { return made(masks_); }
     [[nodiscard]] const passes::Fields& fields() const { return made(fields_); }
-    [[nodiscard]] const passes::PointSearch& point_search() const { return made(point_search_); }
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return made(pair_poses_); }
     [[nodiscard]] const passes::PairSearch& pair_search(const plan::PairSearchKind& kind) const;
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return made(export_pairs_); }
@@ -127,11 +125,11 @@ private:
     mutable std::optional<passes::ResolvePoints> resolve_points_;
     mutable std::optional<passes::Masks> masks_;
     mutable std::optional<passes::Fields> fields_;
-    mutable std::optional<passes::PointSearch> point_search_;
     mutable std::optional<passes::PairPoses> pair_poses_;
     mutable std::optional<passes::ExportPairs> export_pairs_;
     mutable std::optional<passes::InstanceShaders> instance_shaders_;
-    mutable std::optional<passes::PairShaders> pair_shaders_;
+    mutable std::optional<passes::SearchShaders> search_shaders_;
+    mutable std::optional<passes::FoundPairShaders> found_pair_shaders_;
     mutable std::array<std::optional<passes::PairSearch>, plan::pair_search_kinds.size()>
         pair_searches_;
     mutable std::array<std::optional<passes::WorldQueries>, plan::world_questions> world_queries_;

@@ -149,20 +149,20 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     timings.plan += start.milliseconds() - (pipeline_milliseconds() - made);
 }
 
-void Renderer::prepare_searches(const plan::SearchShapes& shapes,
-                                std::span<const plan::PointSearch> searches, SampleRoom room,
-                                BatchResources& slot, Timings& timings) {
+void Renderer::prepare_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+                              SampleRoom room, BatchResources& slot, Timings& timings) {
     const Stopwatch start;
     const double made = pipeline_milliseconds();
-    last_had_searches_ = !searches.empty();
-    if (last_had_searches_) {
-        static_cast<void>(passes_.point_search());
-        SearchCounts expected;
+    last_had_search_ = !pairs.directions.empty();
+    if (last_had_search_) {
+        static_cast<void>(passes_.pair_search(plan::given_pairs));
+        PairCounts expected{};
         for (std::size_t i = 0; i < expected.size(); ++i) {
             expected[i] =
                 room == SampleRoom::all ? UINT32_MAX : std::max(min_expected, max_counts_[i]);
         }
-        slot.upload_searches(shapes, searches, expected);
+        expected[plan::row_total] = UINT32_MAX;  // of all pairs
+        slot.upload_search(shapes, pairs, expected);
     }
     timings.plan += start.milliseconds() - (pipeline_milliseconds() - made);
 }
@@ -186,7 +186,7 @@ void Renderer::record(BatchResources& slot, VkCommandBuffer commands, std::uint3
 
 bool Renderer::submit_those_without_room(BatchResources& slot, Timings& timings) {
     slot.run_those_without_room();
-    if (slot.running().empty() && slot.running_searches().empty()) {
+    if (slot.running().empty() && slot.running_search() == nullptr) {
         return false;
     }
     slot.lay_out_output();
@@ -205,8 +205,8 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
         slot.bind_buffers(*on_device.graph, number);
         on_device.graph->execute(commands, slot.timestamps(), context);
     }
-    for (const std::uint32_t number : slot.running_searches()) {
-        passes_.point_search().record(commands, slot.timestamps(), slot.search(number).item());
+    if (const GivenSearch* const search = slot.running_search()) {
+        search->record(commands, slot.timestamps(), passes_.pair_search(plan::given_pairs));
     }
     record_exports(slot, commands);
 }
@@ -242,8 +242,8 @@ void Renderer::trim() noexcept {
 void Renderer::wait(BatchResources& slot, Timings& timings) {
     slot.wait();
     slot.timestamps().collect(timings.passes);
-    for (const std::uint32_t number : slot.running_searches()) {
-        const SearchCounts& counts = slot.search(number).counts();
+    if (const GivenSearch* const search = slot.running_search()) {
+        const PairCounts& counts = search->counts();
         for (std::size_t i = 0; i < counts.size(); ++i) {
             // A little more, so that a scene that grows slowly is seldom submitted again.
             max_counts_[i] = std::max(max_counts_[i], counts[i] + counts[i] / 8);
@@ -276,8 +276,8 @@ std::string Renderer::print(GraphFormat format) const {
     if (last_graph_ != nullptr) {
         add(*last_graph_, "tiles");
     }
-    if (last_had_searches_) {
-        add(passes_.point_search(), "search for points");
+    if (last_had_search_) {
+        add(pair_search(plan::given_pairs), "search for points");
     }
     if (last_had_fields_) {
         add(passes_.exports().field, "resident fields");

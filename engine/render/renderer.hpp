@@ -80,11 +80,10 @@ public:
     void prepare(std::span<const plan::TileBatch> tile_batches,
                  const plan::ResidentOutputs& resident, plan::TileSize extent, SampleRoom room,
                  BatchResources& slot, Timings& timings);
-    /// Uploads searches for points, after prepare(); nothing of them is needed afterwards.
-    /// `shapes`: what their input starts with.
-    void prepare_searches(const plan::SearchShapes& shapes,
-                          std::span<const plan::PointSearch> searches, SampleRoom room,
-                          BatchResources& slot, Timings& timings);
+    /// Uploads the pairs that are searched, if any, after prepare(); nothing of them is needed
+    /// afterwards. `shapes`: those that they name.
+    void prepare_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+                        SampleRoom room, BatchResources& slot, Timings& timings);
     /// Records the prepared tile batches and submits them; adds to the time of recording.
     void submit(BatchResources& slot, const Submission& order, Timings& timings);
     /// Records the prepared tile batches into a command buffer of the host, followed by a stamp
@@ -125,7 +124,7 @@ private:
     bool last_had_fields_ = false;  // among the resident outputs of the last batch
     bool last_had_records_ = false;
     bool last_had_samples_ = false;
-    bool last_had_searches_ = false;
+    bool last_had_search_ = false;
     struct Pairs {
         plan::PairSearchKind kind;
         bool takes_poses;
@@ -133,7 +132,7 @@ private:
     };
     std::optional<Pairs> last_pairs_;  // since the last batch, as is the next
     std::optional<plan::WorldQuestion> last_question_;
-    SearchCounts max_counts_{};      // found by a search, reserved for the next
+    PairCounts max_counts_{};        // by a search of a batch, reserved for the next
     std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
 };
 

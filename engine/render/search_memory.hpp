@@ -3,14 +3,22 @@
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/plan/search_shapes.hpp>
+#include <engine/render/search_parts.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/compute_sets.hpp>
+#include <passes/pair_search.hpp>
 
+#include <shaders/pairs.h>
 #include <shaders/push.h>
-#include <shaders/search.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
-
-/// \file What the memory of both searches for points has in common.
+#include <vector>
 
 namespace nearfield::render {
 
@@ -42,19 +50,147 @@ inline constexpr VkBufferUsageFlags scratch_usage =
 bool reserve_with_texels(const gpu::Device& device, gpu::MappedBuffer& buffer,
                          gpu::Owned<VkBufferView>& texels, std::uint64_t bytes, const char* name);
 
-/// Bytes of the arguments of the dispatches of so many stages.
-[[nodiscard]] constexpr std::uint64_t argument_bytes(std::uint64_t stages) {
-    return stages * plan::words_of_arguments * sizeof(std::uint32_t);
-}
-/// Where they have the number that a stage counted, in bytes.
-[[nodiscard]] constexpr std::uint64_t offset_of_count(std::uint64_t stage) {
-    return (stage * plan::words_of_arguments + 3) * sizeof(std::uint32_t);
-}
-/// Empties the arguments, so that a device that is lost leaves no counts of an earlier search.
-void clear_counts(const gpu::MappedBuffer& arguments, std::uint64_t stages);
-/// Reads what each stage counted; call once the device is done.
-void read_counts(const gpu::MappedBuffer& arguments, std::span<std::uint32_t> counts);
-[[nodiscard]] bool have_room(std::span<const std::uint32_t> counts,
-                             std::span<const std::uint32_t> capacities);
+/// The shapes of searches on the device. The memory only grows.
+class ShapeBuffer {
+public:
+    explicit ShapeBuffer(const gpu::Device& device);
+
+    /// Takes shapes that have changed to the device. Returns whether buffer or size are others than
+    /// before.
+    bool upload(const plan::SearchShapes& shapes);
+
+    [[nodiscard]] VkBuffer handle() const { return buffer_.handle(); }
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    [[nodiscard]] VkBufferView texels() const { return texels_.get(); }
+
+private:
+    const gpu::Device* device_;
+    gpu::MappedBuffer buffer_;
+    gpu::Owned<VkBufferView> texels_;
+    std::uint64_t bytes_ = 0;
+    std::uint64_t revision_ = 0;  // of the shapes
+};
+
+/// What a search reads: shapes, and the instances of a world or the pairs that a batch gives.
+struct SearchInput {
+    const ShapeBuffer* shapes = nullptr;
+    VkBuffer instances = VK_NULL_HANDLE;
+    std::uint64_t instance_bytes = 0;
+    std::uint32_t instance_count = 0;  ///< 0: the pairs are given
+};
+
+/// What a part of a search leaves for the host, and what its passes are recorded from. The memory
+/// only grows.
+class PairPartMemory {
+public:
+    PairPartMemory(const gpu::Device& device, const passes::ComputeLayout& layout,
+                   const plan::PairSearchKind& kind, bool is_resident);
+    PairPartMemory(const PairPartMemory&) = delete;
+    PairPartMemory& operator=(const PairPartMemory&) = delete;
+
+    [[nodiscard]] const passes::PairSearch::Item& item() const { return item_; }
+    [[nodiscard]] std::uint64_t row_bytes() const {
+        return bytes_of_pair_rows(item_.capacities[plan::row_total]);
+    }
+
+    /// Of what was read last: how many rows the parts before have, and this one.
+    [[nodiscard]] std::uint32_t first_row() const { return first_row_; }
+    [[nodiscard]] std::uint32_t row_count() const { return row_count_; }
+    /// Pairs that the search was asked about.
+    [[nodiscard]] std::uint32_t candidates() const { return candidates_; }
+    [[nodiscard]] const plan::PairRowData& row(std::uint32_t i) const { return rows_data()[i + 1]; }
+    /// In ascending order of the pairs.
+    [[nodiscard]] std::span<const plan::PairRowData> rows() const {
+        return {rows_data() + 1, row_count_};
+    }
+    /// Only if the host reads them; where it does not read all, those that rows ask for.
+    [[nodiscard]] const plan::FoundPointData* records() const {
+        return reinterpret_cast<const plan::FoundPointData*>(records_.data());
+    }
+
+private:
+    friend class SearchMemory;
+
+    void lay_out(const PairPart& part, std::uint32_t instances);
+    void bind(const SearchInput& input, const passes::PairSearch::Item& shared,
+              std::uint64_t scratch_bytes, VkBufferView scratch_texels);
+    void clear_counts(std::uint32_t pairs);
+    [[nodiscard]] PairCounts read_counts() const;
+    void read_results(std::uint32_t first_row, std::vector<std::uint32_t>& undecided);
+    [[nodiscard]] const plan::PairRowData* rows_data() const {
+        return reinterpret_cast<const plan::PairRowData*>(rows_.data());
+    }
+    [[nodiscard]] std::uint32_t count(std::uint32_t word) const;
+
+    const passes::ComputeLayout* layout_;
+    plan::PairSearchKind kind_;
+    gpu::MappedBuffer records_;
+    gpu::MappedBuffer rows_;
+    gpu::MappedBuffer counts_;
+    passes::DescriptorSets sets_;
+    passes::PairSearch::Item item_;
+    std::uint32_t first_row_ = 0;
+    std::uint32_t row_count_ = 0;
+    std::uint32_t candidates_ = 0;
+};
+
+/// The memory of a search between pairs, found or given, with its descriptor sets. It only grows.
+/// Where not all pairs fit at once, parts of them are searched one after the other, within the same
+/// commands.
+class SearchMemory {
+public:
+    SearchMemory(const gpu::Device& device, const passes::ComputeLayout& layout,
+                 const plan::PairSearchKind& kind, bool is_resident);
+
+    /// The capacities; once they have changed, lay_out() has to follow.
+    [[nodiscard]] PairParts& capacities() { return parts_; }
+    /// Makes room for them. The device must not be using the memory. Throws StatusException
+    /// (too_large) as PairParts::fit().
+    void lay_out(const SearchInput& input, const PairLimits& limits);
+    [[nodiscard]] std::size_t parts() const { return memories_.size(); }
+    [[nodiscard]] const PairPartMemory& part(std::size_t i) const { return *memories_[i]; }
+    [[nodiscard]] VkDescriptorSet set_of_instances() const { return sets_[0]; }
+    [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
+    [[nodiscard]] std::uint64_t scratch_bytes() const { return scratch_bytes_; }
+    [[nodiscard]] VkBufferView scratch_texels() const { return scratch_texels_.get(); }
+
+    /// Empties the counts, so that a device that is lost leaves none of an earlier search. Before
+    /// each submission. `pairs`: in place of the number of pairs until the device has counted them.
+    void clear_counts(std::uint32_t pairs = 0);
+    /// Reads how much was counted, once the device is done.
+    void read_counts();
+    /// By part, as they were read last.
+    [[nodiscard]] std::span<const PairCounts> counts() const { return counts_; }
+    [[nodiscard]] bool had_room() const;
+    /// Throws StatusException (overflow) without.
+    void require_room() const;
+    /// Reads what there was room for.
+    void read_results();
+    /// Makes room for what was counted; lay_out() has to follow. Throws StatusException (too_large)
+    /// if one instance has too many pairs.
+    void grow();
+
+    /// Of the last search: the pairs that it was about, and those that have rows.
+    [[nodiscard]] std::uint32_t candidates() const;
+    [[nodiscard]] std::uint32_t row_count() const;
+    [[nodiscard]] const PairPartMemory& part_of_row(std::uint32_t row) const;
+    /// The rows of found pairs that the CPU has to decide, in ascending order.
+    [[nodiscard]] std::span<const std::uint32_t> undecided() const { return undecided_; }
+
+private:
+    const gpu::Device* device_;
+    const passes::ComputeLayout* layout_;
+    plan::PairSearchKind kind_;
+    bool is_resident_;
+    gpu::MappedBuffer scratch_;
+    gpu::MappedBuffer arguments_;
+    gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
+    passes::DescriptorSets sets_;
+    std::uint64_t scratch_bytes_ = 0;
+    PairParts parts_;
+    std::vector<std::unique_ptr<PairPartMemory>> memories_;  // of the parts
+    std::vector<PairCounts> counts_;
+    std::vector<std::uint32_t> undecided_;
+};
 
 }  // namespace nearfield::render

@@ -101,7 +101,7 @@ void WorldQueryBuffers::bind() {
     layout_->write_texels(item_.set, Layout::scratch_texels, scratch_texels_.get());
     write(Layout::output, questions_);
     layout_->end_updates();
-    item_.shapes = world_.shapes();
+    item_.shapes = world_.shapes().handle();
     item_.instances = world_.instances();
     item_.questions = questions_.handle();
     item_.scratch = scratch_.handle();

@@ -69,7 +69,7 @@ void AnswerJobs::divide(const plan::Plan& plan, std::size_t queries) {
 void AnswerJobs::run(Job& job, std::size_t first_part, std::size_t step, const Work& work) const {
     for (std::size_t part = first_part; part < ends_.size(); part += step) {
         const std::size_t first = part == 0 ? 0 : ends_[part - 1];
-        job.answered += job.answers.write(work.plan, first, ends_[part], true, work.words,
+        job.answered += job.answers.write(work.plan, first, ends_[part], true, work.device,
                                           work.fields, work.results);
     }
 }
@@ -88,7 +88,7 @@ std::size_t AnswerJobs::run_at_once(std::uint32_t jobs, const Work& work) {
     return answered;
 }
 
-std::size_t AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words,
+std::size_t AnswerJobs::answer_on_cpu(const plan::Plan& plan, DeviceAnswers& device,
                                       decode::FieldDecoder& fields,
                                       std::vector<AnyResult>& results) {
     if (jobs_.count() > 1) {
@@ -96,20 +96,20 @@ std::size_t AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uin
         const std::uint32_t most = std::min(jobs_.count(), plan.max_jobs);
         const auto jobs = static_cast<std::uint32_t>(std::min<std::size_t>(ends_.size(), most));
         if (jobs > 1) {
-            return run_at_once(jobs, {plan, words, fields, results});
+            return run_at_once(jobs, {plan, device, fields, results});
         }
     }
     QueryAnswers& answers = answers_.front()->answers;
     answers.begin_batch();
-    return answers.write(plan, 0, results.size(), true, words, fields, results);
+    return answers.write(plan, 0, results.size(), true, device, fields, results);
 }
 
-void AnswerJobs::finish(const plan::Plan& plan, std::span<std::uint32_t> words,
-                        decode::FieldDecoder& fields, std::vector<AnyResult>& results) {
+void AnswerJobs::finish(const plan::Plan& plan, DeviceAnswers& device, decode::FieldDecoder& fields,
+                        std::vector<AnyResult>& results) {
     // Other batches may have been answered in between.
     QueryAnswers& answers = answers_.front()->answers;
     answers.begin_batch();
-    answers.write(plan, 0, results.size(), false, words, fields, results);
+    answers.write(plan, 0, results.size(), false, device, fields, results);
 }
 
 }  // namespace nearfield::results

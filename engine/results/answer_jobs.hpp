@@ -21,11 +21,11 @@ public:
 
     /// Writes the results of the queries that the CPU answers; returns their number. Rethrows the
     /// exception of a job, the first job's if several threw. See QueryAnswers::write().
-    std::size_t answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words,
+    std::size_t answer_on_cpu(const plan::Plan& plan, DeviceAnswers& device,
                               decode::FieldDecoder& fields, std::vector<AnyResult>& results);
     /// Writes the results of the other queries, in the calling thread.
-    void finish(const plan::Plan& plan, std::span<std::uint32_t> words,
-                decode::FieldDecoder& fields, std::vector<AnyResult>& results);
+    void finish(const plan::Plan& plan, DeviceAnswers& device, decode::FieldDecoder& fields,
+                std::vector<AnyResult>& results);
 
 private:
     /// One job of a batch and its outcome.
@@ -36,7 +36,7 @@ private:
     /// The input and output shared by all jobs of a batch.
     struct Work {
         const plan::Plan& plan;
-        std::span<std::uint32_t> words;
+        DeviceAnswers& device;
         decode::FieldDecoder& fields;
         std::vector<AnyResult>& results;
     };

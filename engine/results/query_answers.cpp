@@ -12,6 +12,17 @@ namespace nearfield::results {
 using geometry::TransformedPolygon;
 using plan::PlannedQuery;
 
+records::QueryPoints DeviceAnswers::points_of(const plan::Plan& plan, std::uint32_t query) const {
+    const PlannedQuery& planned = plan.queries[query];
+    if (planned.has_points_of(plan::PointSource::device)) {
+        return pairs.points(query);
+    }
+    const plan::PlannedPoints& points = planned.points();
+    return {.points = std::span(plan.points).subspan(points.first, points.count),
+            .words = std::span(words).subspan(points.first, points.count),
+            .tiles = plan.tiles};
+}
+
 /// Adds the effort to the result's statistics if the test uses hierarchies.
 bool QueryAnswers::shapes_intersect(const Asked& asked, ResultSummary& result) {
     const PlannedQuery& query = asked.planned();
@@ -39,41 +50,63 @@ void QueryAnswers::find_points(const Asked& asked) {
     if (!planned.has_points_of(plan::PointSource::planner)) {
         return;
     }
-    exact_points_.answer(asked.plan, planned, instances_, asked.words);
+    exact_points_.answer(asked.plan, planned, instances_, asked.device.words);
     const std::uint32_t reverse = planned.points().reverse;
     if (reverse != plan::PlannedPoints::none) {
-        exact_points_.answer(asked.plan, asked.plan.queries[reverse], instances_, asked.words);
+        exact_points_.answer(asked.plan, asked.plan.queries[reverse], instances_,
+                             asked.device.words);
     }
 }
 
 void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
     const PlannedQuery& planned = asked.planned();
-    if (planned.has_points_of(plan::PointSource::brute_force)) {
+    const bool is_searched = planned.has_points_of(plan::PointSource::device);
+    if (planned.has_points_of(plan::PointSource::brute_force) ||
+        (is_searched && asked.device.pairs.are_left_to_cpu())) {
+        result.regions.clear();  // of a search
         penetration_.answer(planned, instances_, result);
         return;
     }
-    resolver_.begin(asked.plan, planned, asked.words);
-    if (planned.has_points_of(plan::PointSource::device)) {
+    if (is_searched) {
         answer_by_search(asked, result);
         return;
     }
-    collect_penetrations(asked, result);
+    resolver_.begin(planned, asked.device.points_of(asked.plan, asked.query));
+    if (std::get<PenetrationQuery>(*planned.query).records) {
+        list_penetrations(result);
+    } else {
+        take_summary(resolver_.summarize_penetration(result.tolerance), result);
+    }
     result.intersects = result.count > 0 || shapes_intersect(asked, result);
 }
 
-/// From the points that the device has found.
+void QueryAnswers::take_summary(const records::PenetrationSummary& summary,
+                                PenetrationResult& result) {
+    result.count = summary.count;
+    result.deepest = summary.deepest;
+}
+
+/// Of the resolver's points.
+void QueryAnswers::list_penetrations(PenetrationResult& result) {
+    const std::size_t deepest = resolver_.list_penetrations(result.tolerance, result.records);
+    result.count = static_cast<std::uint32_t>(result.records.size());
+    if (result.count > 0) {
+        result.deepest = result.records[deepest];
+    }
+}
+
+/// From what the device has found.
 void QueryAnswers::answer_by_search(const Asked& asked, PenetrationResult& result) {
     const PlannedQuery& planned = asked.planned();
-    if (planned.points().summarized) {
-        const records::PenetrationSummary summary =
-            resolver_.summarize_penetration(result.tolerance);
-        result.count = summary.count;
-        result.deepest = summary.deepest;
-    } else {
-        const std::size_t deepest = resolver_.list_penetrations(result.tolerance, result.records);
-        result.count = static_cast<std::uint32_t>(result.records.size());
-        if (result.count > 0) {
-            result.deepest = result.records[deepest];
+    const plan::PairRowData* const row = asked.device.pairs.row(asked.query);
+    if (row != nullptr && decode::FoundPairs::is_summary(*row)) {
+        take_summary(resolver_.summarize_penetration(planned, *row, result.tolerance), result);
+    } else if (row != nullptr) {
+        resolver_.begin(planned, asked.device.pairs.points(asked.query));
+        if (planned.points().summarized) {
+            take_summary(resolver_.summarize_penetration(result.tolerance), result);
+        } else {
+            list_penetrations(result);
         }
     }
     const bool is_known = searched_ != nullptr && cpu::is_reverse(*searched_, planned);
@@ -81,19 +114,6 @@ void QueryAnswers::answer_by_search(const Asked& asked, PenetrationResult& resul
         result.count > 0 || (is_known ? searched_intersect_ : shapes_intersect(asked, result));
     searched_ = &planned;
     searched_intersect_ = result.intersects;
-}
-
-void QueryAnswers::collect_penetrations(const Asked& asked, PenetrationResult& result) {
-    const bool keep = std::get<PenetrationQuery>(*asked.planned().query).records;
-    resolver_.for_each_penetration(result.tolerance, [&](const records::ResolvedPoint& resolved) {
-        if (result.count == 0 || resolved.distance > result.deepest.depth) {
-            records::write(resolved, result.deepest);
-        }
-        ++result.count;
-        if (keep) {
-            records::write(resolved, result.records.emplace_back());
-        }
-    });
 }
 
 void QueryAnswers::answer(const Asked& asked, IntersectionResult& result) {
@@ -117,24 +137,31 @@ void QueryAnswers::answer(const Asked& asked, DistanceFieldResult& result) {
 
 void QueryAnswers::answer(const Asked& asked, ContactResult& result) {
     const PlannedQuery& planned = asked.planned();
-    if (planned.has_points_of(plan::PointSource::brute_force)) {
+    const bool is_left_to_cpu =
+        planned.has_points_of(plan::PointSource::device) && asked.device.pairs.are_left_to_cpu();
+    if (planned.has_points_of(plan::PointSource::brute_force) || is_left_to_cpu) {
+        result.regions.clear();  // of a search
         contacts_.answer(planned, instances_, result);
         return;
     }
     const auto& query = std::get<ContactQuery>(*planned.query);
     if (query.normals == ContactNormals::analytic) {
-        contact_decoder_.find(asked.plan, planned, asked.words, result.cell, found_contacts_);
+        const std::uint32_t reverse = planned.points().reverse;
+        contact_decoder_.find(
+            {planned, asked.device.points_of(asked.plan, asked.query)},
+            {asked.plan.queries[reverse], asked.device.points_of(asked.plan, reverse)}, result.cell,
+            found_contacts_);
         found_contacts_.write(*planned.a, *planned.b, query, result);
     }
     result.intersects = shapes_intersect(asked, result);
 }
 
 void QueryAnswers::answer(const Asked& asked, ClosestPointResult& result) {
-    closest_.decode(asked.plan, asked.planned(), asked.words, instances_, result);
+    closest_.decode(asked.plan, asked.planned(), asked.device.words, instances_, result);
 }
 
 void QueryAnswers::answer(const Asked& asked, SeparationResult& result) {
-    closest_.decode(asked.plan, asked.planned(), asked.words, instances_, result);
+    closest_.decode(asked.plan, asked.planned(), asked.device.words, instances_, result);
 }
 
 void QueryAnswers::answer(const Asked& asked, IntersectionTestResult& result) {
@@ -154,8 +181,8 @@ void QueryAnswers::answer(const Asked& asked, ContainmentResult& result) {
 }
 
 std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::size_t end,
-                                bool on_cpu, std::span<std::uint32_t> words,
-                                decode::FieldDecoder& fields, std::vector<AnyResult>& results) {
+                                bool on_cpu, DeviceAnswers& device, decode::FieldDecoder& fields,
+                                std::vector<AnyResult>& results) {
     std::size_t count = 0;
     for (std::size_t i = first; i < end; ++i) {
         if ((plan.queries[i].technique == Technique::cpu) != on_cpu) {
@@ -164,7 +191,7 @@ std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::
         ++count;
         const plan::QueryTimer timer(plan.times, i, &QueryTime::answer);
         try {
-            write({plan, static_cast<std::uint32_t>(i), words, fields}, on_cpu, results[i]);
+            write({plan, static_cast<std::uint32_t>(i), device, fields}, on_cpu, results[i]);
         } catch (const Interrupted& interrupted) {
             plan::cut_short(interrupted.status(), results[i]);
         }

@@ -12,6 +12,7 @@
 #include <engine/cpu/time_of_impact.hpp>
 #include <engine/decode/contacts.hpp>
 #include <engine/decode/field_results.hpp>
+#include <engine/decode/found_pairs.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/records/point_resolver.hpp>
 #include <engine/simd/transformed_edges.hpp>
@@ -22,6 +23,15 @@
 #include <vector>
 
 namespace nearfield::results {
+
+/// What the device has answered.
+struct DeviceAnswers {
+    std::vector<std::uint32_t> words;  ///< by point of the plan
+    decode::FoundPairs pairs;
+
+    /// The points of a planned query.
+    [[nodiscard]] records::QueryPoints points_of(const plan::Plan& plan, std::uint32_t query) const;
+};
 
 /// Writes results of queries, one after the other: those that the CPU answers, and the CPU's part
 /// of the others once the device's results are in. For one thread at a time; several instances may
@@ -34,12 +44,11 @@ public:
     void begin_batch();
 
     /// Writes the results of the queries of the batch from `first` up to, but without, `end`:
-    /// either those that the CPU answers or the others; returns their number. `words`: the device's
-    /// results, by point of the plan; for queries that the CPU answers, they are written here.
-    /// Passes the largest field value to the field decoder. Once the call is interrupted, results
-    /// are empty and say so.
+    /// either those that the CPU answers or the others; returns their number. Words of points of
+    /// queries that the CPU answers are written to those of the device. Passes the largest field
+    /// value to the field decoder. Once the call is interrupted, results are empty and say so.
     std::size_t write(const plan::Plan& plan, std::size_t first, std::size_t end, bool on_cpu,
-                      std::span<std::uint32_t> words, decode::FieldDecoder& fields,
+                      DeviceAnswers& device, decode::FieldDecoder& fields,
                       std::vector<AnyResult>& results);
 
 private:
@@ -47,7 +56,7 @@ private:
     struct Asked {
         const plan::Plan& plan;
         std::uint32_t query;
-        std::span<std::uint32_t> words;
+        DeviceAnswers& device;
         decode::FieldDecoder& fields;
 
         [[nodiscard]] const plan::PlannedQuery& planned() const { return plan.queries[query]; }
@@ -59,7 +68,8 @@ private:
     void find_points(const Asked& asked);
     void answer(const Asked& asked, PenetrationResult& result);
     void answer_by_search(const Asked& asked, PenetrationResult& result);
-    void collect_penetrations(const Asked& asked, PenetrationResult& result);
+    void take_summary(const records::PenetrationSummary& summary, PenetrationResult& result);
+    void list_penetrations(PenetrationResult& result);
     void answer(const Asked& asked, IntersectionResult& result);
     void answer(const Asked& asked, DistanceFieldResult& result);
     void answer(const Asked& asked, ContactResult& result);

@@ -13,36 +13,15 @@ using plan::Tile;
 
 void ResultDecoder::begin_batch(const plan::Plan& plan) {
     // Points that no tile batch answers are left to the CPU.
-    words_.assign(plan.points.size(), plan::point_resolved | plan::point_doubtful);
+    device_.words.assign(plan.points.size(), plan::point_resolved | plan::point_doubtful);
+    device_.pairs.begin(plan.searched.empty() ? 0 : plan.queries.size());
     samples_.clear();
     fields_.begin_batch(plan);
 }
 
 void ResultDecoder::add_points(const plan::TileBatch& batch, std::span<const std::uint32_t> words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
-        words_[batch.point_index[i]] = words[i];
-    }
-}
-
-void ResultDecoder::add_found(const plan::PointSearch& search,
-                              std::span<const plan::FoundPointData> found,
-                              std::span<const float> depths, plan::Plan& plan) {
-    for (std::size_t i = 0; i < found.size();) {
-        const std::uint32_t direction = found[i].direction;
-        const std::size_t first = i;
-        plan::PlannedQuery& query = plan.queries[search.queries[direction]];
-        plan::PlannedPoints& points = query.points();
-        points.first = static_cast<std::uint32_t>(plan.points.size());
-        const auto unit = static_cast<float>(plan::unit_length_of(*query.b));  // a power of two
-        plan::FoundPlaces place_of(query);
-        for (; i < found.size() && found[i].direction == direction; ++i) {
-            plan::FoundPointData point = found[i];
-            points.left_out += point.number >> plan::left_out_shift;
-            point.number &= (1U << plan::left_out_shift) - 1U;
-            plan.points.push_back({place_of(point), plan::PlannedPoint::no_tile, unit * depths[i]});
-            words_.push_back(point.word);
-        }
-        points.count += static_cast<std::uint32_t>(i - first);
+        device_.words[batch.point_index[i]] = words[i];
     }
 }
 
@@ -89,13 +68,13 @@ void ResultDecoder::write_drawn_samples(std::vector<AnyResult>& results) {
 }
 
 void ResultDecoder::answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results) {
-    left_ = results.size() - answers_->answer_on_cpu(plan, words_, fields_, results);
+    left_ = results.size() - answers_->answer_on_cpu(plan, device_, fields_, results);
 }
 
 void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
     write_drawn_samples(results);
     if (left_ > 0) {
-        answers_->finish(plan, words_, fields_, results);
+        answers_->finish(plan, device_, fields_, results);
     }
 }
 

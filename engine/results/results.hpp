@@ -2,7 +2,6 @@
 
 #include <engine/decode/field_results.hpp>
 #include <engine/plan/plan.hpp>
-#include <engine/plan/point_search.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/results/answer_jobs.hpp>
 #include <nearfield/result.hpp>
@@ -26,10 +25,8 @@ public:
 
     /// Decodes the read-back of one tile batch.
     void add_points(const plan::TileBatch& batch, std::span<const std::uint32_t> words);
-    /// Adds the points that a search has found to those of the plan. `depths`: of each, in units of
-    /// B's frame.
-    void add_found(const plan::PointSearch& search, std::span<const plan::FoundPointData> found,
-                   std::span<const float> depths, plan::Plan& plan);
+    /// What a search has found out, which has to stay until finish().
+    [[nodiscard]] decode::FoundPairs& pairs() { return device_.pairs; }
     static void add_summaries(const plan::Plan& plan, const plan::TileBatch& batch,
                               std::span<const plan::TileSummary> summaries,
                               std::vector<AnyResult>& results);
@@ -44,8 +41,8 @@ public:
     void add_samples(const plan::Plan& plan, const plan::TileBatch& batch,
                      std::span<const plan::SampleData> samples);
 
-    /// The device's results, by point of the plan.
-    [[nodiscard]] std::span<const std::uint32_t> point_words() const { return words_; }
+    /// What the device has answered about points and pairs.
+    [[nodiscard]] const DeviceAnswers& device() const { return device_; }
 
     /// Writes the results of queries without a part on the device. Independent of the tile batches.
     void answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results);
@@ -65,8 +62,8 @@ private:
     void write_drawn_samples(std::vector<AnyResult>& results);
 
     AnswerJobs* answers_;
-    std::size_t left_ = 0;              // queries of the batch that the CPU did not answer
-    std::vector<std::uint32_t> words_;  // by point of the plan
+    std::size_t left_ = 0;  // queries of the batch that the CPU did not answer
+    DeviceAnswers device_;
     std::vector<FoundSample> samples_;
     decode::FieldDecoder fields_;
 };

@@ -1,7 +1,7 @@
 // How the rows of pairs that the device found are read.
 
 #include <engine/localize/hierarchy.hpp>
-#include <engine/plan/point_search.hpp>
+#include <engine/plan/pair_search.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/device_pairs.hpp>
 
@@ -60,13 +60,10 @@ const AnyResult& DevicePairs::answer_on_cpu(const plan::PairRowData& data, bool 
     return cpu_results_.results.front();
 }
 
-/// Plans the pair as if its points had been found by a batch.
-void DevicePairs::begin(const plan::PairRowData& data) {
+const plan::PlannedQuery& DevicePairs::plan_pair(const plan::PairRowData& data) {
     const PairInstance& a = instances_[data.a];
     const PairInstance& b = instances_[data.b];
-    plan_.points.clear();
-    words_.clear();
-    plan::PlannedQuery& planned = plan_.queries.front();
+    plan::PlannedQuery& planned = of_a_;
     planned.query = &query_;
     planned.a = polygon_of(a.instance.shape);
     planned.b = polygon_of(b.instance.shape);
@@ -83,20 +80,7 @@ void DevicePairs::begin(const plan::PairRowData& data) {
     if (poses_) {
         points.margin += 2.0 * (rounding_of(a) + rounding_of(b));
     }
-}
-
-void DevicePairs::add_points(std::span<const plan::FoundPointData> found,
-                             plan::PlannedQuery& planned) {
-    plan::PlannedPoints& points = planned.points();
-    points.first = static_cast<std::uint32_t>(plan_.points.size());
-    points.count = static_cast<std::uint32_t>(found.size());
-    plan_.points.resize(points.end());
-    words_.resize(points.end());
-    plan::FoundPlaces place_of(planned);
-    for (std::uint32_t i = 0; i < points.count; ++i) {
-        plan_.points[points.first + i] = {place_of(found[i]), plan::PlannedPoint::no_tile};
-        words_[points.first + i] = found[i].word;
-    }
+    return planned;
 }
 
 void DevicePairs::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
@@ -110,17 +94,13 @@ void DevicePairs::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
         fill(row, data, std::get<PenetrationResult>(answer_on_cpu(data, false)));
         return;
     }
-    begin(data);
-    const plan::FoundPointData deepest{0, data.edge, data.number, data.word};
-    add_points({&deepest, 1}, plan_.queries.front());
+    const records::PenetrationSummary summary =
+        resolver_.summarize_penetration(plan_pair(data), data, question_.tolerance);
     PenetrationResult result;
-    resolver_.begin(plan_, plan_.queries.front(), words_);
-    resolver_.for_each_penetration(question_.tolerance, [&](const records::ResolvedPoint& point) {
-        records::write(point, result.deepest);
-    });
-    result.count = data.count & plan::row_count_mask;
+    result.count = summary.count;
+    result.deepest = summary.deepest;
     result.intersects = true;
-    result.error_bound = plan_.queries.front().budget.bound;
+    result.error_bound = of_a_.budget.bound;
     fill(row, data, result);
 }
 
@@ -146,26 +126,19 @@ void DevicePairs::records(std::uint32_t index, std::vector<PenetrationRecord>& r
         records = std::get<PenetrationResult>(answer_on_cpu(data, true)).records;
         return;
     }
-    begin(data);
-    add_points(buffers_->records(number, data.first_record, data.record_count),
-               plan_.queries.front());
-    resolver_.begin(plan_, plan_.queries.front(), words_);
+    resolver_.begin(plan_pair(data), points_of(number, data.first_record, data.record_count));
     static_cast<void>(resolver_.list_penetrations(question_.tolerance, records));
 }
 
 /// Both directions of the pair, with the points that the device found.
 void DevicePairs::find_contacts(const plan::PairRowData& data, std::uint32_t row) {
-    begin(data);
-    plan::PlannedQuery& of_a = plan_.queries[0];
-    plan::PlannedQuery& of_b = plan_.queries[1];
-    of_b = of_a;
-    std::swap(of_b.a, of_b.b);
-    std::swap(of_b.pose_a, of_b.pose_b);
-    std::swap(of_b.deviations.a, of_b.deviations.b);
-    of_a.points().reverse = 1;
-    add_points(buffers_->records(row, data.first_record, data.record_count), of_a);
-    add_points(buffers_->records(row, data.first_of_b, data.count_of_b), of_b);
-    contact_decoder_.find(plan_, of_a, words_, of_a.budget.cell, found_contacts_);
+    of_b_ = plan_pair(data);
+    std::swap(of_b_.a, of_b_.b);
+    std::swap(of_b_.pose_a, of_b_.pose_b);
+    std::swap(of_b_.deviations.a, of_b_.deviations.b);
+    contact_decoder_.find({of_a_, points_of(row, data.first_record, data.record_count)},
+                          {of_b_, points_of(row, data.first_of_b, data.count_of_b)},
+                          of_a_.budget.cell, found_contacts_);
 }
 
 ContactResult& DevicePairs::contacts_of(const plan::PairRowData& data, std::uint32_t row) {
@@ -178,9 +151,8 @@ ContactResult& DevicePairs::contacts_of(const plan::PairRowData& data, std::uint
         return contacts_;
     }
     find_contacts(data, row);
-    const plan::PlannedQuery& planned = plan_.queries.front();
-    contacts_.cell = planned.budget.cell;
-    found_contacts_.write(*planned.a, *planned.b, std::get<ContactQuery>(query_), contacts_);
+    contacts_.cell = of_a_.budget.cell;
+    found_contacts_.write(*of_a_.a, *of_a_.b, std::get<ContactQuery>(query_), contacts_);
     return contacts_;
 }
 
@@ -188,9 +160,8 @@ bool DevicePairs::do_intersect(const plan::PairRowData& data) {
     if ((data.count & plan::row_intersects) != 0) {
         return true;
     }
-    begin(data);
     edges_.clear();
-    return intersection_test_.intersect(plan_.queries.front(), edges_);
+    return intersection_test_.intersect(plan_pair(data), edges_);
 }
 
 void DevicePairs::row(std::uint32_t index, PairRow<ContactQuery>& row) {

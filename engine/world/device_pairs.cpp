@@ -20,9 +20,7 @@
 namespace nearfield {
 
 DevicePairs::DevicePairs(const AnyQuery& query, double reach, Timings& timings)
-    : query_(query), timings_(timings), question_(plan::pair_question(query, reach)) {
-    plan_.queries.resize(2);
-}
+    : query_(query), timings_(timings), question_(plan::pair_question(query, reach)) {}
 
 DevicePairs::~DevicePairs() {
     if (context_ != nullptr) {

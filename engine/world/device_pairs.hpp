@@ -124,8 +124,12 @@ private:
         const AnyResult& answer = decided != nullptr ? *decided : answer_on_cpu(data, false);
         fill(row, data, std::get<typename Query::Result>(answer));
     }
-    void begin(const plan::PairRowData& data);
-    void add_points(std::span<const plan::FoundPointData> found, plan::PlannedQuery& planned);
+    /// The pair as a planned query, until the next one.
+    [[nodiscard]] const plan::PlannedQuery& plan_pair(const plan::PairRowData& data);
+    [[nodiscard]] records::QueryPoints points_of(std::uint32_t row, std::uint32_t first,
+                                                 std::uint32_t count) const {
+        return {.found = buffers_->records(row, first, count)};
+    }
     /// Those of a row of the device.
     void find_contacts(const plan::PairRowData& data, std::uint32_t row);
     /// The manifold of a pair of contacts and, if the query asks for them, their records; until the
@@ -155,8 +159,9 @@ private:
     std::vector<Decided> decided_;  // in ascending order of the rows
     Results decided_results_;
     std::vector<std::uint32_t> dropped_rows_;  // of the device, in ascending order
-    plan::Plan plan_;                          // for reading rows, as are those that follow
-    std::vector<std::uint32_t> words_;
+    // For reading rows, as are those that follow: a pair, and its other direction.
+    plan::PlannedQuery of_a_;
+    plan::PlannedQuery of_b_;
     std::vector<AnyQuery> cpu_queries_;
     Results cpu_results_;
     decode::ContactDecoder contact_decoder_;

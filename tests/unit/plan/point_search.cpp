@@ -41,7 +41,7 @@ protected:
     void build() {
         plan_.searched.assign(1, searched_query(0, plan_.queries.front(), geometry::Vector::UnitX(),
                                                 geometry::Vector::Zero()));
-        ASSERT_EQ(builder_.build(plan_, std::uint64_t{1} << 27U, searches_), 1U);
+        builder_.build(plan_, std::uint64_t{1} << 27U, pairs_);
         ASSERT_EQ(search().directions.size(), 1U);
     }
 
@@ -57,11 +57,14 @@ protected:
         plan_.queries.front().points().summarized = summarized;
     }
     /// Those of so many queries like the one that was built.
-    [[nodiscard]] std::vector<PointSearch> searches_of(std::size_t queries, std::uint64_t range) {
+    [[nodiscard]] GivenPairs pairs_of(std::size_t queries) {
         plan_.searched.assign(queries, plan_.searched.front());
-        std::vector<PointSearch> searches;
-        searches.resize(builder_.build(plan_, range, searches));
-        return searches;
+        for (std::uint32_t i = 0; i < queries; ++i) {
+            plan_.searched[i].query = i;
+        }
+        GivenPairs pairs;
+        builder_.build(plan_, std::uint64_t{1} << 27U, pairs);
+        return pairs;
     }
     void ask_for_contacts_within(double distance) {
         ContactQuery contacts;
@@ -71,7 +74,7 @@ protected:
     }
 
     [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().units().size(); }
-    [[nodiscard]] const PointSearch& search() const { return searches_.front(); }
+    [[nodiscard]] const GivenPairs& search() const { return pairs_; }
     [[nodiscard]] const SearchUnit& unit(std::size_t index) const {
         return builder_.shapes().units()[index];
     }
@@ -157,8 +160,8 @@ private:
 
     AnyQuery query_;
     Plan plan_;
-    PointSearchBuilder builder_;
-    std::vector<PointSearch> searches_;
+    GivenPairsBuilder builder_;
+    GivenPairs pairs_;
 
 protected:
     geometry::Polygon a_;
@@ -247,33 +250,28 @@ TEST_F(PointSearchInput, MarginCoversSixteenRoundings) {
     }
 }
 
-// All searches have room for what the device may find, however it divides.
-TEST_F(PointSearchInput, IsDividedWhereTheRangeEnds) {
+// Each direction names its query and its first item, and bounds say what the device may find.
+TEST_F(PointSearchInput, FollowOneAnother) {
     build(test::regular(40), test::regular(40));
     const double points = search().max_points;
-    const double bytes = 21.0 * points + 60.0 * 40.0;
     constexpr std::size_t queries = 50;
-    for (const double fit : {1.0, 7.0, 25.0, 49.0, 50.0}) {
-        const auto range = static_cast<std::uint64_t>(65536.0 + (fit + 0.5) * bytes);
-        std::size_t all = 0;
-        for (const PointSearch& one : searches_of(queries, range)) {
-            EXPECT_LE(static_cast<double>(one.directions.size()), fit);
-            EXPECT_EQ(one.max_points, points * static_cast<double>(one.directions.size()));
-            all += one.directions.size();
-        }
-        EXPECT_EQ(all, queries);
-        EXPECT_EQ(searches_of(queries, range).size(),
-                  static_cast<std::size_t>(std::ceil(queries / fit)));
+    const GivenPairs pairs = pairs_of(queries);
+    ASSERT_EQ(pairs.directions.size(), queries);
+    for (std::uint32_t i = 0; i < queries; ++i) {
+        EXPECT_EQ(pairs.directions[i].a, i);
+        EXPECT_EQ(pairs.directions[i].first_item, 5 * i);
     }
+    EXPECT_EQ(pairs.items, 5 * queries);
+    EXPECT_EQ(pairs.max_edges, 40.0 * queries);
+    EXPECT_EQ(pairs.max_points, points * queries);
 }
 
-// The device may leave out points only where nobody asks for all of them.
+// A row tells of the points only where nobody asks for all of them.
 TEST_F(PointSearchInput, SaysWhereTheDeepestPointIsEnough) {
     for (const bool summarized : {true, false}) {
         ask_for_penetration(0.01, summarized);
         build(test::regular(5), test::regular(6));
         const double unit = std::ldexp(1.0, std::ilogb(b_.radius()));
-        EXPECT_EQ(search().summarizes, summarized);
         EXPECT_EQ(search().directions.front().touching,
                   summarized ? static_cast<float>(0.01 / 1024.0 / unit) : -1.0F);
     }

@@ -22,13 +22,12 @@ protected:
         planned_.budget.cell = 0.01;
         plan::PlannedPoints& points = planned_.work.emplace<plan::PlannedPoints>();
         points.source = plan::PointSource::device;
-        points.count = 1;
-        plan_.points = {{{0, 0.0}, plan::PlannedPoint::no_tile}};
+        points_ = {{{0, 0.0}, plan::PlannedPoint::no_tile}};
     }
 
     /// What the device found of the point is in `word`.
     ResolvedPoint resolved(std::uint32_t word) {
-        resolver_.begin(plan_, planned_, {&word, 1});
+        resolver_.begin(planned_, {.points = points_, .words = {&word, 1}});
         ResolvedPoint resolved;
         resolver_.for_each([](std::uint32_t) { return true; },
                            [&](std::uint32_t, const ResolvedPoint& point) { resolved = point; });
@@ -40,7 +39,7 @@ protected:
 
     Polygon a_;
     Polygon b_;
-    plan::Plan plan_;
+    std::vector<plan::PlannedPoint> points_;
     plan::PlannedQuery planned_;
     PointResolver resolver_;
 };
@@ -81,24 +80,23 @@ TEST_F(PointResolverTest, ResolvesManyPointsAsOneByOne) {
         {samples::rectangle(0.0, 0.0, 4.0, 4.0), samples::rectangle(1.0, 1.0, 2.5, 2.0)});
     planned_.b = &b;
     std::vector<std::uint32_t> words;
-    plan_.points.clear();
+    points_.clear();
     for (std::uint32_t i = 0; i < 300; ++i) {
-        plan_.points.push_back({{i / 100, (i % 100) / 100.0}, plan::PlannedPoint::no_tile});
+        points_.push_back({{i / 100, (i % 100) / 100.0}, plan::PlannedPoint::no_tile});
         words.push_back(found | (i * 5 % 8));
     }
-    planned_.points().count = 300;
     const geometry::TransformedPolygon placed_a(a_, {});
     const geometry::TransformedPolygon placed_b(b, {});
     for (const double margin : {0.0, 1.0}) {
         planned_.points().margin = margin;
-        resolver_.begin(plan_, planned_, words);
+        resolver_.begin(planned_, {.points = points_, .words = words});
         std::uint32_t next = 0;
         resolver_.for_each(
             [](std::uint32_t) { return true; },
             [&](std::uint32_t i, const ResolvedPoint& point) {
                 ASSERT_EQ(i, next++);
                 std::uint32_t edge = words[i] & plan::point_edge_mask;
-                const geometry::Vector at = plan::position(placed_a, plan_.points[i].point);
+                const geometry::Vector at = plan::position(placed_a, points_[i].point);
                 geometry::NearestOnSegment nearest = nearest_on_edge(placed_b, edge, at);
                 const std::uint32_t found_edge = edge;
                 for (const std::uint32_t other : {b.previous(found_edge), b.next(found_edge)}) {
@@ -123,14 +121,13 @@ TEST_F(PointResolverTest, ResolvesManyPointsAsOneByOne) {
 /// Both vertices of A that are inside are equally deep.
 TEST_F(PointResolverTest, ListsPenetrationsAndTheFirstOfTheDeepest) {
     a_ = samples::polygon({{{3.0, 1.0}, {3.5, 2.0}, {3.0, 3.0}, {5.0, 2.0}}});
-    plan_.points.clear();
+    points_.clear();
     std::vector<std::uint32_t> words;
     for (const std::uint32_t vertex : {1U, 0U, 2U, 3U}) {
-        plan_.points.push_back({{vertex, 0.0}, plan::PlannedPoint::no_tile});
+        points_.push_back({{vertex, 0.0}, plan::PlannedPoint::no_tile});
         words.push_back((vertex == 3 ? plan::point_resolved : found) | 1U);
     }
-    planned_.points().count = 4;
-    resolver_.begin(plan_, planned_, words);
+    resolver_.begin(planned_, {.points = points_, .words = words});
     std::vector<PenetrationRecord> records(10);
     EXPECT_EQ(resolver_.list_penetrations(0.01, records), 1U);
     ASSERT_EQ(records.size(), 3U);

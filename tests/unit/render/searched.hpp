@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/render/pair_outputs.hpp>
-#include <engine/render/pair_parts.hpp>
+#include <engine/render/search_parts.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,37 @@
 #pragma once
 
 #include <engine/plan/pair_question.hpp>
-#include <engine/render/pair_counts.hpp>
+#include <nearfield/status.hpp>
 
+#include <shaders/pairs.h>
 #include <shaders/push.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+/// \file The capacities of a search between pairs, found or given, and its division into parts.
+
 namespace nearfield::render {
+
+/// How many a search between pairs has counted, or has room for, by stage
+/// (shaders/search.h): edges, points, points found, pairs, their items, and rows.
+using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
+
+/// Room for what a first search may find. Tests look at no points.
+[[nodiscard]] PairCounts first_capacities(const plan::PairSearchKind& kind);
+/// Whether a search of one part can count so many.
+[[nodiscard]] bool is_countable(const PairCounts& counts);
+/// Throws StatusException (too_large) if one instance has more pairs than can be searched.
+void require_searchable(const PairCounts& counts);
+/// Capacities for what a search has counted without room for all of it. Stages after one without
+/// room have counted only a part, so they get room for as many times more; those after pairs
+/// without room have counted nothing but items, and get room another time.
+[[nodiscard]] PairCounts grown(const PairCounts& counts, const PairCounts& capacities);
+/// The error of a search without room for what it counted; the reasons name each stage.
+[[nodiscard]] Status overflow(const PairCounts& counts, const PairCounts& capacities);
 
 /// Bytes that a search for pairs needs: of scratch memory, which its parts use in turns, and of
 /// what the host reads of each part.
@@ -33,7 +54,7 @@ struct PairBytes {
                                           const PairCounts& capacities, plan::SearchPush& push);
 
 /// Instances that follow one another, whose pairs are searched at once: those that have one of them
-/// first.
+/// first. Or given pairs, each of which counts for an instance.
 struct PairPart {
     std::uint32_t first = 0;
     std::uint32_t end = 0;
@@ -48,11 +69,11 @@ struct PairLimits {
     std::uint64_t memory = 0;  ///< in all buffers
 };
 
-/// The parts in which the pairs of a world are searched one after the other: one, unless that does
-/// not fit. Together they have all instances.
+/// The parts in which pairs are searched one after the other: one, unless that does not fit.
+/// Together they have all instances, or all given pairs.
 class PairParts {
 public:
-    explicit PairParts(const plan::PairQuestion& question);
+    PairParts(const plan::PairSearchKind& kind, bool is_resident);
 
     [[nodiscard]] std::size_t count() const { return parts_.size(); }
     [[nodiscard]] const PairPart& operator[](std::size_t i) const { return parts_[i]; }
@@ -60,6 +81,9 @@ public:
     /// Of how many instances they are from now on. Returns whether they are others. Of a part that
     /// loses some, the rest are taken for average ones.
     bool set_instances(std::uint32_t count);
+    /// Of how many given pairs, with how many items: all else is 0. They become one part, with
+    /// `room` at least, unless several have as many pairs. Returns whether any part is another.
+    bool set_given(const PairCounts& counts, const PairCounts& room);
     /// Takes down what a search has counted in a part that had room for it.
     void note(std::size_t i, const PairCounts& counts) {
         parts_[i].needed = parts_[i].counted = counts;

@@ -49,7 +49,7 @@ public:
           question_(any_question(random_)),
           world_(question_, {}),
           recorded_(world_),
-          parts_(question_) {
+          parts_(question_.kind(), question_.resident) {
         resize(400);
         // What parts have room for at least, before anything was counted.
         const PairBytes least = world_.bytes({64, 64, 64, 64, 64, 64});
@@ -77,7 +77,7 @@ public:
             EXPECT_EQ(error.status().code(), StatusCode::too_large);
             EXPECT_TRUE(is_too_large(world_) || is_too_large(recorded_))
                 << error.status().message();
-            parts_ = PairParts(question_);  // as a table starts anew
+            parts_ = PairParts(question_.kind(), question_.resident);  // as a table starts anew
             has_results_ = false;
         }
     }

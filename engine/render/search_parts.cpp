@@ -1,13 +1,20 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/render/instance_buffers.hpp>
 #include <engine/render/pair_outputs.hpp>
-#include <engine/render/pair_parts.hpp>
 #include <engine/render/search_memory.hpp>
+#include <engine/render/search_parts.hpp>
 
 #include <string>
+#include <utility>
 
 namespace nearfield::render {
 namespace {
+
+/// Sums end at 2^30 (shaders/sums.glsl), and a thread has a number of 32 bits.
+constexpr std::uint32_t max_counted = 1U << 29U;
+
+constexpr PairCounts first_of_points{16384, 16384, 4096, 4096, 1024, 1024};
+constexpr PairCounts first_of_tests{16384, 0, 0, 4096, 4096, 1024};
 
 /// Of each stage, where there is no memory for the usual ones.
 constexpr std::uint32_t least_capacity = 64;
@@ -56,6 +63,63 @@ PairCounts share(PairCounts counts, std::uint32_t few, std::uint32_t all) {
 
 }  // namespace
 
+PairCounts first_capacities(const plan::PairSearchKind& kind) {
+    PairCounts counts = kind.goal == plan::PairGoal::tests ? first_of_tests : first_of_points;
+    if (kind.points == plan::FoundPoints::compared) {
+        counts[plan::record_total] = 0;
+    }
+    return counts;
+}
+
+bool is_countable(const PairCounts& counts) {
+    return counts[plan::pair_total] < plan::max_pairs &&
+           std::all_of(counts.begin(), counts.end(),
+                       [](std::uint32_t count) { return count <= max_counted; });
+}
+
+void require_searchable(const PairCounts& counts) {
+    if (counts[plan::pair_total] == plan::too_many_pairs) {
+        throw StatusException(
+            {StatusCode::too_large,
+             "the world has an instance whose box overlaps with those of some 50,000 others, or "
+             "whose pairs have 2^27 edges"});
+    }
+}
+
+PairCounts grown(const PairCounts& counts, const PairCounts& capacities) {
+    PairCounts larger = capacities;
+    double growth = 1.0;
+    for (const auto stage : {plan::pair_total, plan::item_total, plan::edge_total,
+                             plan::point_total, plan::record_total, plan::row_total}) {
+        const double expected = growth * counts[stage];
+        const double most = stage == plan::row_total ? counts[plan::pair_total] : max_counted;
+        if (expected > capacities[stage]) {
+            larger[stage] = std::max(capacities[stage],
+                                     static_cast<std::uint32_t>(std::min(1.25 * expected, most)));
+        }
+        if (stage != plan::pair_total) {
+            growth *= std::max(1.0, 1.0 * counts[stage] / std::max(capacities[stage], 1U));
+        }
+    }
+    return larger;
+}
+
+Status overflow(const PairCounts& counts, const PairCounts& capacities) {
+    constexpr std::array<const char*, plan::stages_of_pairs> names{
+        "edges", "points", "points near or inside", "pairs", "groups of edges", "rows"};
+    std::vector<std::string> reasons;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > capacities[i]) {
+            reasons.push_back(std::to_string(counts[i]) + ' ' + names[i] + ", and room for " +
+                              std::to_string(capacities[i]));
+        }
+    }
+    return {StatusCode::overflow,
+            "the recorded commands found more than there was room for; the next ones will have "
+            "room for as many, if they are recorded anew",
+            std::move(reasons)};
+}
+
 std::uint64_t bytes_of_pair_rows(std::uint32_t rows) {
     return (std::uint64_t{rows} + 1) * sizeof(plan::PairRowData) +
            std::uint64_t{rows} * sizeof(std::uint32_t);
@@ -63,8 +127,7 @@ std::uint64_t bytes_of_pair_rows(std::uint32_t rows) {
 
 std::uint64_t bytes_of_pair_records(const plan::PairSearchKind& kind,
                                     const PairCounts& capacities) {
-    const bool has_any = kind.points == plan::FoundPoints::packed;
-    return std::max(has_any ? capacities[plan::record_total] : 0, 1U) *
+    return std::max(kind.reads_points() ? capacities[plan::record_total] : 0, 1U) *
            sizeof(plan::FoundPointData);
 }
 
@@ -73,13 +136,14 @@ PairBytes place_pair_arrays(const plan::PairSearchKind& kind, std::uint32_t inst
     const auto [edges, points, found, pairs, items, rows] = capacities;
     push.instances = instances;
     ScratchLayout layout;
+    const std::uint32_t found_pairs = kind.are_given() ? 0 : pairs;
     push.boxes = layout.units(units_of_boxes(instances));
     push.lists = layout.units(plan::units_of_list * std::uint64_t{instances});
-    push.pairs = layout.words(2 * std::uint64_t{pairs});
+    push.pairs = layout.words(2 * std::uint64_t{found_pairs});
     push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
     push.summaries = layout.units(2 * std::uint64_t{pairs});
-    push.verdicts = layout.words(pairs);
-    push.frames = layout.units(pairs);
+    push.verdicts = layout.words(found_pairs);
+    push.frames = layout.units(found_pairs);
     push.first_directions = layout.sums(items);
     // Two sums for each block of instances, which begin whole units.
     constexpr std::uint64_t more = std::uint64_t{8} * plan::search_block;
@@ -88,9 +152,9 @@ PairBytes place_pair_arrays(const plan::PairSearchKind& kind, std::uint32_t inst
     return {layout.bytes(), bytes_of_pair_records(kind, capacities), bytes_of_pair_rows(rows)};
 }
 
-PairParts::PairParts(const plan::PairQuestion& question)
-    : kind_(question.kind()),
-      is_resident_(question.resident),
+PairParts::PairParts(const plan::PairSearchKind& kind, bool is_resident)
+    : kind_(kind),
+      is_resident_(is_resident),
       first_capacities_(first_capacities(kind_)),
       parts_(1) {
     PairPart& all = parts_.front();
@@ -114,6 +178,33 @@ bool PairParts::set_instances(std::uint32_t count) {
     }
     last.end = count;
     return true;
+}
+
+bool PairParts::set_given(const PairCounts& counts, const PairCounts& room) {
+    const std::uint32_t end = counts[plan::pair_total];
+    bool are_others = parts_.back().end != end;
+    if (parts_.size() > 1) {
+        if (!are_others) {
+            return false;
+        }
+        PairPart all = parts_.front();
+        for (std::size_t i = 1; i < parts_.size(); ++i) {
+            all.needed = sum(all.needed, parts_[i].needed);
+        }
+        all.needed = share(all.needed, end, parts_.back().end);
+        all.capacities = with_much_more(all.needed);
+        parts_.assign(1, all);
+    }
+    PairPart& part = parts_.front();
+    part.end = end;
+    part.counted = counts;
+    for (std::size_t stage = 0; stage < counts.size(); ++stage) {
+        part.needed[stage] = std::max(part.needed[stage], counts[stage]);
+        const std::uint32_t least = std::max(counts[stage], room[stage]);
+        are_others = are_others || part.capacities[stage] < least;
+        part.capacities[stage] = std::max(part.capacities[stage], least);
+    }
+    return are_others;
 }
 
 void PairParts::grow(std::size_t i, const PairCounts& counts) {
@@ -206,7 +297,8 @@ void PairParts::divide(std::size_t i, const PairLimits& limits) {
     const std::uint32_t size = size_of(whole);
     if (size == 1) {
         const PairBytes bytes = bytes_of(whole.needed);
-        refuse("the pairs of one instance", bytes.largest(),
+        refuse(kind_.are_given() ? "the points of one query" : "the pairs of one instance",
+               bytes.largest(),
                " in one buffer, of which shaders reach ", limits.reach);
     }
     std::uint32_t pieces = 2;
@@ -296,8 +388,8 @@ void PairParts::fit_memory(const PairLimits& limits) {
             refuse("the pairs that stay", residents.largest(),
                    " in one buffer, of which shaders reach ", limits.reach);
         } else {
-            refuse("the pairs of the world", all.scratch + found, "; Settings::memory_limit is ",
-                   limits.memory);
+            refuse(kind_.are_given() ? "the points of the batch" : "the pairs of the world",
+                   all.scratch + found, "; Settings::memory_limit is ", limits.memory);
         }
     }
 }

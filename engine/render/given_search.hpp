@@ -1,0 +1,57 @@
+#pragma once
+
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/plan/point_search.hpp>
+#include <engine/plan/search_shapes.hpp>
+#include <engine/render/search_memory.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/pair_search.hpp>
+
+#include <cstdint>
+
+namespace nearfield::render {
+
+/// The search for what the device finds out about the pairs of a batch: its input and its memory,
+/// for commands of others. It only grows.
+class GivenSearch {
+public:
+    GivenSearch(const gpu::Device& device, const passes::ComputeLayout& layout);
+
+    /// Uploads pairs, of which there are some, and makes room for `expected` elements, or for as
+    /// many as there can be. The device must not be using the memory. Throws StatusException
+    /// (too_large) if the device cannot hold them.
+    void upload(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+                const PairCounts& expected);
+    [[nodiscard]] std::uint32_t passes() const {
+        return static_cast<std::uint32_t>(memory_.parts()) * passes::PairSearch::max_passes_of_part;
+    }
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                const passes::PairSearch& search) const;
+
+    /// Call once the device is done. Throws StatusException (device_error) if it counted more than
+    /// there can be.
+    void read_back();
+    /// What the device counted, whether or not there was room for it; where there was none, the
+    /// counts after it are too small.
+    [[nodiscard]] const PairCounts& counts() const { return counts_; }
+    [[nodiscard]] bool had_room() const { return memory_.had_room(); }
+    /// Makes room for what the device counted.
+    void grow();
+    /// What it found, by part. Valid after read_back(), with room.
+    [[nodiscard]] const SearchMemory& found() const { return memory_; }
+
+private:
+    void lay_out();
+
+    const gpu::Device* device_;
+    ShapeBuffer shapes_;
+    gpu::MappedBuffer pairs_;
+    SearchMemory memory_;
+    std::uint64_t pair_bytes_ = 0;
+    PairCounts most_{};    // that there can be
+    PairCounts counts_{};  // of all parts
+};
+
+}  // namespace nearfield::render
