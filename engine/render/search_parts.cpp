@@ -298,8 +298,7 @@ void PairParts::divide(std::size_t i, const PairLimits& limits) {
     if (size == 1) {
         const PairBytes bytes = bytes_of(whole.needed);
         refuse(kind_.are_given() ? "the points of one query" : "the pairs of one instance",
-               bytes.largest(),
-               " in one buffer, of which shaders reach ", limits.reach);
+               bytes.largest(), " in one buffer, of which shaders reach ", limits.reach);
     }
     std::uint32_t pieces = 2;
     while (pieces < size && !fits(with_more(share(whole.needed, 1, pieces)), limits)) {
