@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t seed = 52000;
 
-/// Penetration by compute without records: the device leaves out most of the points that it finds.
+/// Penetration by compute without records: most pairs have a row in place of the points found.
 /// The answers are held to those with records, which are held to the oracle.
 class PointSummaries : public QueryTest {
 protected:
@@ -166,7 +166,7 @@ TEST_F(PointSummaries, HoldForPairsOfWhichFewHavePoints) {
     }
 }
 
-// Several workgroups leave out points of the same direction, and each counts its own.
+// More than a row counts: the CPU makes all of them exact.
 TEST_F(PointSummaries, CountPointsByTheHundredThousand) {
     Random random(seed + 3000);
     Pair pair;
