@@ -13,6 +13,11 @@ namespace {
 constexpr graph::ExternalAccess after_writes{.before = Access::storage_write_in_compute};
 constexpr graph::ExternalAccess after_dispatches{.before = Access::indirect_arguments};
 
+/// What a part leaves for the host is its own. Commands of a batch are submitted once.
+graph::ExternalAccess uses_of_found(const plan::PairSearchKind& kind) {
+    return kind.are_given() ? graph::ExternalAccess{} : after_writes;
+}
+
 std::uint32_t flags_of(const plan::PairSearchKind& kind) {
     return (kind.points == plan::FoundPoints::packed ? plan::search_packs_all : 0U) |
            (kind.goal == plan::PairGoal::contacts ? plan::search_crosses : 0U);
@@ -30,7 +35,8 @@ PairSearch::PairSearch(const gpu::Device& device, const ComputeLayout& layout,
       instances_(graph_.import_buffer({"pair instances", true, false})),
       scratch_(graph_.import_buffer({"pair scratch"}, after_writes)),
       arguments_(graph_.import_buffer({"pair arguments"}, after_dispatches)),
-      row_buffer_(graph_.import_buffer({"pair rows", false, true}, after_writes)),
+      found_(uses_of_found(kind)),
+      row_buffer_(graph_.import_buffer({"pair rows", false, true}, found_)),
       counts_(graph_.import_buffer({"pair counts", false, true}, after_writes)) {
     if (kind.are_given()) {
         given_.emplace(device, layout, shaders::pair_given_comp, "nearfield given pairs",
@@ -176,7 +182,7 @@ void PairSearch::declare_points(const plan::PairSearchKind& kind) {
 }
 
 void PairSearch::add_packing() {
-    records_ = graph_.import_buffer({"pair points", false, true}, after_writes);
+    records_ = graph_.import_buffer({"pair points", false, true}, found_);
     graph_.add_pass(
         "pack points", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {

@@ -101,7 +101,8 @@ private:
     graph::Handle instances_;
     graph::Handle scratch_;
     graph::Handle arguments_;
-    graph::Handle records_;  // none where the host reads none
+    graph::ExternalAccess found_;  // before, of what the host reads
+    graph::Handle records_;        // none where the host reads none
     graph::Handle row_buffer_;
     graph::Handle counts_;
 };
