@@ -2,7 +2,7 @@
 
 #include <engine/base/catch_to_status.hpp>
 #include <engine/base/interruption.hpp>
-#include <engine/context/read_structures.hpp>
+#include <nearfield/limits.hpp>
 
 #include <limits>
 #include <optional>
@@ -19,21 +19,15 @@ namespace nearfield {
 /// same, or the error of limits that cannot be used.
 template <class Action>
 auto call_within(const Limits& limits, const Action& action) -> decltype(action()) {
-    if (limits.structure_size == sizeof(Limits) && !limits_anything(limits)) {
+    if (!limits_anything(limits)) {
         const InterruptionScope scope(nullptr);
         return action();
     }
     std::optional<Interruption> interruption;
-    Status status = catch_to_status([&] {
-        const Limits own = read_versioned(limits);
-        if (limits_anything(own)) {
-            interruption.emplace(own);
-        }
-    });
-    if (!status.ok()) {
+    if (Status status = catch_to_status([&] { interruption.emplace(limits); }); !status.ok()) {
         return status;
     }
-    const InterruptionScope scope(interruption ? &*interruption : nullptr);
+    const InterruptionScope scope(&*interruption);
     return action();
 }
 

@@ -1,6 +1,6 @@
 #include <engine/context/call_within.hpp>
+#include <engine/context/check_structures.hpp>
 #include <engine/context/implementation.hpp>
-#include <engine/context/read_structures.hpp>
 
 #include <utility>
 
@@ -33,8 +33,9 @@ Context& Context::operator=(Context&&) noexcept = default;
 Expected<Context> Context::create(const HostDevice& host, const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = catch_to_status([&] {
-        implementation = std::make_unique<Implementation>(nullptr, read_versioned(host),
-                                                          read_versioned(settings));
+        check_structure(host);
+        check_structure(settings);
+        implementation = std::make_unique<Implementation>(nullptr, host, settings);
     });
     if (!status.ok()) {
         return status;
@@ -46,10 +47,10 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
                                            const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = catch_to_status([&] {
-        const Settings own_settings = read_versioned(settings);
-        auto own = std::make_unique<gpu::HeadlessDevice>(read_versioned(options));
+        check_structure(settings);
+        auto own = std::make_unique<gpu::HeadlessDevice>(options);
         const HostDevice host = own->host();
-        implementation = std::make_unique<Implementation>(std::move(own), host, own_settings);
+        implementation = std::make_unique<Implementation>(std::move(own), host, settings);
     });
     if (!status.ok()) {
         return status;
@@ -59,8 +60,10 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
 
 Expected<Context> Context::create_cpu(const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
-    Status status = catch_to_status(
-        [&] { implementation = std::make_unique<Implementation>(read_versioned(settings)); });
+    Status status = catch_to_status([&] {
+        check_structure(settings);
+        implementation = std::make_unique<Implementation>(settings);
+    });
     if (!status.ok()) {
         return status;
     }

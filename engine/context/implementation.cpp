@@ -1,5 +1,4 @@
 #include <engine/context/implementation.hpp>
-#include <engine/context/read_structures.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/plan/check_query.hpp>
 
@@ -161,13 +160,12 @@ Status Context::Implementation::run(const Batch& batch, Results& results) {
 Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submission& submission) {
     Ticket ticket;
     Status status = unless_lost([&] {
-        const Submission order = read_versioned(submission);
         if (device_ != nullptr) {
-            gpu::check_semaphores(*device_, order);
-        } else if (!order.waits.empty() || !order.signals.empty()) {
+            gpu::check_semaphores(*device_, submission);
+        } else if (!submission.waits.empty() || !submission.signals.empty()) {
             throw StatusException(no_device("submit with semaphores"));
         }
-        ticket = machinery_->ring.submit(batch, order);
+        ticket = machinery_->ring.submit(batch, submission);
     });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
@@ -177,8 +175,7 @@ Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recor
         return no_device("record");
     }
     Ticket ticket;
-    Status status =
-        unless_lost([&] { ticket = machinery_->ring.record(batch, read_versioned(recording)); });
+    Status status = unless_lost([&] { ticket = machinery_->ring.record(batch, recording); });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 

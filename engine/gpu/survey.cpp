@@ -1,8 +1,6 @@
 #include <engine/base/status_exception.hpp>
-#include <engine/base/versioned.hpp>
 #include <engine/gpu/requirements.hpp>
 
-#include <cstddef>
 #include <cstring>
 #include <exception>
 
@@ -31,15 +29,13 @@ const OptionalPart* Requirements::find(const char* name) const noexcept {
 
 Expected<Requirements> requirements(const PhysicalDevice& device) {
     try {
-        const PhysicalDevice asked =
-            read_versioned(device, "PhysicalDevice", {offsetof(PhysicalDevice, api_version)});
-        refuse_null(asked.instance != VK_NULL_HANDLE, "instance");
-        refuse_null(asked.physical_device != VK_NULL_HANDLE, "physical_device");
-        refuse_null(asked.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
-        gpu::require_vulkan_1(asked.api_version, "PhysicalDevice");
+        refuse_null(device.instance != VK_NULL_HANDLE, "instance");
+        refuse_null(device.physical_device != VK_NULL_HANDLE, "physical_device");
+        refuse_null(device.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
+        gpu::require_vulkan_1(device.api_version, "PhysicalDevice");
         Requirements found;
-        gpu::survey_base(asked, found);
-        gpu::survey_optional_parts(asked, found);
+        gpu::survey_base(device, found);
+        gpu::survey_optional_parts(device, found);
         return found;
     } catch (const StatusException& failure) {
         return failure.status();

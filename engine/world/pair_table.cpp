@@ -844,8 +844,7 @@ Status World::submit(PairTableBase& table, const PairTableInput& input, const Li
 
 Status World::record(PairTableBase& table, const Recording& recording, const PairTableInput& input,
                      const Limits& limits) {
-    return catch_within(
-        limits, [&] { table.state_->record(state_->view(), input, read_versioned(recording)); });
+    return catch_within(limits, [&] { table.state_->record(state_->view(), input, recording); });
 }
 
 bool World::is_recorded(const PairTableBase& table) const noexcept {

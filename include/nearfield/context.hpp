@@ -59,7 +59,6 @@ struct DeviceThresholds {
 /// Limits and settings of a context. Invalid settings are rejected when the context is created,
 /// before any driver call (StatusCode::invalid_settings).
 struct Settings {
-    std::uint32_t structure_size = sizeof(Settings);  ///< leave unchanged, see host.hpp
     /// Number of batches that may be submitted or recorded and not yet collected, 1 to
     /// `max_batches_in_flight`. Each has its own buffers, created on first use. A host that records
     /// sets its own number of frames in flight times its batches per frame.
@@ -85,12 +84,12 @@ struct Settings {
     DeviceTechniques techniques = {};
     /// True: timestamps around each pass tell how long it takes (Timings::passes). They cost time
     /// themselves, since some drivers wait at each: small frames of lavapipe take twice as long.
-    alignas(std::uint64_t) bool timestamps = false;  // begins a word: see read_versioned()
+    bool timestamps = false;
     /// False: the context makes all pipelines when it is created, and no later call makes any.
     /// True: the first call that needs a pipeline makes it, and takes longer: run(), submit(),
     /// record(), collect(), resident_layout(), World::update(), World::submit() or World::record().
     /// For a program that asks few questions and should start quickly.
-    alignas(std::uint64_t) bool pipelines_on_demand = false;  // likewise
+    bool pipelines_on_demand = false;
 };
 
 /// What Context::add_shape() returns: the handle of the shape, or why there is none. It can stand

@@ -2,8 +2,6 @@
 
 #include <nearfield/export.hpp>
 
-#include <cstdint>
-
 /// \file
 /// A device of the context's own, and where any context writes its log. No type of Vulkan's.
 
@@ -29,7 +27,6 @@ struct Log {
 
 /// Selects the device of a headless context.
 struct HeadlessOptions {
-    std::uint32_t structure_size = sizeof(HeadlessOptions);  ///< leave unchanged
     /// A part of the device's name, case-sensitive; null or empty: the best kind available
     /// (discrete, integrated, virtual, then a CPU implementation such as lavapipe).
     const char* device_name = nullptr;

@@ -10,10 +10,6 @@
 /// \file
 /// The Vulkan objects and callbacks that a host gives to a context.
 ///
-/// Every structure that a host fills begins with `structure_size`; leave it unchanged. It tells the
-/// library which members existed when the host was compiled. Missing members have their defaults. A
-/// structure larger than the library knows is accepted if all unknown bytes are zero; otherwise,
-/// and for a size that no version ever had, the call fails with StatusCode::invalid_settings.
 /// docs/host_integration.md shows how the parts fit together.
 
 namespace nearfield {
@@ -90,7 +86,6 @@ struct MemoryFunctions {
 /// is no Technique::raster. requirements() (requirements.hpp) checks all of this before the device
 /// is created.
 struct HostDevice {
-    std::uint32_t structure_size = sizeof(HostDevice);  ///< leave unchanged
     std::uint32_t queue_family = 0;        ///< of `queue` and of command buffers to record into
     VkInstance instance = VK_NULL_HANDLE;  ///< created for Vulkan 1.1 or later
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;  ///< the one that `device` was created from

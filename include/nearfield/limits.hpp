@@ -8,7 +8,7 @@
 
 /// \file
 /// Limits of one call: a budget of time, a flag that cancels it, and a callback that sees it
-/// proceed. For `structure_size` see host.hpp.
+/// proceed.
 
 namespace nearfield {
 
@@ -40,7 +40,6 @@ struct Progress {
 /// Not cut are the wait for the device, the upload of a batch and the recording of its commands.
 /// What the device works on is waited for, and not read if the time is over by then.
 struct Limits {
-    std::uint32_t structure_size = sizeof(Limits);  ///< leave unchanged
     /// The call ends once this is true. Borrowed for the call; any thread may set it, and so may
     /// `progress`. Null: the call cannot be cancelled.
     const std::atomic<bool>* cancel = nullptr;

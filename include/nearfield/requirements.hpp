@@ -16,10 +16,8 @@
 
 namespace nearfield {
 
-/// A physical device, and what its host has decided about the device that it will create. For
-/// `structure_size` see host.hpp.
+/// A physical device, and what its host has decided about the device that it will create.
 struct PhysicalDevice {
-    std::uint32_t structure_size = sizeof(PhysicalDevice);  ///< leave unchanged
     /// The queue family that the host will use; any_queue_family: requirements() selects one.
     std::uint32_t queue_family = any_queue_family;
     VkInstance instance = VK_NULL_HANDLE;               ///< borrowed for the call
@@ -102,9 +100,8 @@ struct Requirements {
 
 /// Checks a physical device against the requirements of nearfield. Creates and changes nothing;
 /// queries the driver for properties, limits, formats, queue families, features and extensions. An
-/// unmet requirement is not an error. Fails with invalid_settings for a null handle, an api_version
-/// that is not a version of Vulkan 1, or a structure_size that no version had; with out_of_memory.
-/// Thread-safe.
+/// unmet requirement is not an error. Fails with invalid_settings for a null handle or an
+/// api_version that is not a version of Vulkan 1; with out_of_memory. Thread-safe.
 [[nodiscard]] NEARFIELD_EXPORT Expected<Requirements> requirements(const PhysicalDevice& device);
 
 }  // namespace nearfield

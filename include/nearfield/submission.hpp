@@ -9,7 +9,7 @@
 
 /// \file
 /// What a host gives with each batch: semaphores for a submission, or the command buffer to record
-/// into. Tables of pairs are recorded likewise. For `structure_size` see host.hpp.
+/// into. Tables of pairs are recorded likewise.
 
 namespace nearfield {
 
@@ -34,14 +34,12 @@ struct SemaphoreSignal {
 /// Semaphores for the submission of a batch. The lists are borrowed until Context::submit()
 /// returns; the semaphores must live until the batch is complete.
 struct Submission {
-    std::uint32_t structure_size = sizeof(Submission);  ///< leave unchanged
-    std::span<const SemaphoreWait> waits = {};          ///< before the device starts the batch
-    std::span<const SemaphoreSignal> signals = {};      ///< after the device has finished the batch
+    std::span<const SemaphoreWait> waits = {};      ///< before the device starts the batch
+    std::span<const SemaphoreSignal> signals = {};  ///< after the device has finished the batch
 };
 
 /// The command buffer that Context::record() records a batch into, or World::record() a table.
 struct Recording {
-    std::uint32_t structure_size = sizeof(Recording);  ///< leave unchanged
     /// A command buffer of HostDevice::queue_family in the recording state, outside a render pass,
     /// without an active occlusion query and without conditional rendering. A primary one; or a
     /// secondary one, if no query is answered by Technique::raster, which begins render passes of

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <tests/support/mock_driver.hpp>
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -115,39 +114,6 @@ TEST_F(BadStructures, SettingsThatAreNoEnumerators) {
     settings = {};
     settings.batches_in_flight = max_batches_in_flight + 1;
     expect_refused(settings, "batches_in_flight is 9");
-}
-
-/// No version of a structure ended within a member.
-TEST_F(BadStructures, SizesThatCutAMemberInTwo) {
-    const auto expect = [&](const Status& status, const std::string& name) {
-        expect_refused(status, StatusCode::invalid_settings, name + "::structure_size is ");
-    };
-    HostDevice host = driver_.host();
-    for (const std::size_t size :
-         {offsetof(HostDevice, device), offsetof(HostDevice, log) + 8,
-          offsetof(HostDevice, queue_access) + 8, offsetof(HostDevice, memory) + 8}) {
-        host.structure_size = static_cast<std::uint32_t>(size);
-        expect(Context::create(host).error(), "HostDevice");
-    }
-    Settings settings;
-    settings.structure_size = offsetof(Settings, device_thresholds) + 8;
-    expect(Context::create(driver_.host(), settings).error(), "Settings");
-    HeadlessOptions options;
-    options.structure_size = offsetof(HeadlessOptions, log) + 8;
-    expect(Context::create_headless(options).error(), "HeadlessOptions");
-    PhysicalDevice device;
-    device.structure_size = offsetof(PhysicalDevice, physical_device);
-    expect(requirements(device).error(), "PhysicalDevice");
-
-    Expected<Context> context = Context::create(driver_.host());
-    ASSERT_TRUE(context.has_value()) << context.error().text();
-    driver_.forget_calls();
-    Submission submission;
-    submission.structure_size = offsetof(Submission, waits) + 8;
-    expect(context->submit({}, submission).error(), "Submission");
-    Recording recording;
-    recording.structure_size = 12;
-    expect(context->record({}, recording).error(), "Recording");
 }
 
 TEST_F(BadStructures, QueriesWithNumbersThatAreNoEnumerators) {

@@ -333,11 +333,6 @@ TEST(BatchLimits, ThatAreNoneAreRefused) {
         EXPECT_NE(status.message().find("Limits::seconds"), std::string::npos) << status.text();
     }
     Limits limits;
-    limits.structure_size = 7;
-    const Status status = pair.context().run(batch, results, limits);
-    EXPECT_EQ(status.code(), StatusCode::invalid_settings);
-    EXPECT_NE(status.message().find("Limits::structure_size"), std::string::npos) << status.text();
-    limits = {};
     limits.seconds = std::numeric_limits<double>::max();
     EXPECT_TRUE(pair.context().run(batch, results, limits).ok());
     EXPECT_TRUE(summary_of(results.results.front()).status.ok());

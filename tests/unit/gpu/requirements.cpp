@@ -309,8 +309,7 @@ TEST_F(GpuRequirements, OfNothingAreRefused) {
     for (const auto clear :
          {+[](PhysicalDevice& device) { device.instance = VK_NULL_HANDLE; },
           +[](PhysicalDevice& device) { device.physical_device = VK_NULL_HANDLE; },
-          +[](PhysicalDevice& device) { device.get_instance_proc_addr = nullptr; },
-          +[](PhysicalDevice& device) { device.structure_size = 4; }}) {
+          +[](PhysicalDevice& device) { device.get_instance_proc_addr = nullptr; }}) {
         PhysicalDevice device = physical(host_.device());
         clear(device);
         EXPECT_EQ(requirements(device).error().code(), StatusCode::invalid_settings);

@@ -1,8 +1,7 @@
 #include <engine/base/status_exception.hpp>
-#include <engine/base/versioned.hpp>
-#include <engine/context/read_structures.hpp>
+#include <engine/context/check_structures.hpp>
+#include <nearfield/host.hpp>
 
-#include <cstddef>
 #include <string>
 
 namespace nearfield {
@@ -34,13 +33,7 @@ void check_both(const char* member, bool first, const char* first_name, bool sec
 
 }  // namespace
 
-HostDevice read_versioned(const HostDevice& given) {
-    const HostDevice host =
-        read_versioned(given, "HostDevice",
-                       {offsetof(HostDevice, debug_utils), offsetof(HostDevice, allocator),
-                        offsetof(HostDevice, pipeline_cache), offsetof(HostDevice, queue_access),
-                        offsetof(HostDevice, log), offsetof(HostDevice, completion_by_timeline),
-                        offsetof(HostDevice, memory)});
+void check_structure(const HostDevice& host) {
     const QueueAccess& access = host.queue_access;
     check_both("queue_access", access.lock != nullptr, "lock", access.unlock != nullptr, "unlock");
     const MemoryFunctions& memory = host.memory;
@@ -55,36 +48,9 @@ HostDevice read_versioned(const HostDevice& given) {
             "HostDevice::completion_by_timeline is set, and timeline_semaphore is not: the host "
             "has to enable the feature");
     }
-    return host;
 }
 
-HeadlessOptions read_versioned(const HeadlessOptions& given) {
-    return read_versioned(given, "HeadlessOptions",
-                          {offsetof(HeadlessOptions, device_name), offsetof(HeadlessOptions, log)});
-}
-
-Submission read_versioned(const Submission& given) {
-    return read_versioned(given, "Submission",
-                          {offsetof(Submission, waits), offsetof(Submission, signals)});
-}
-
-Recording read_versioned(const Recording& given) {
-    return read_versioned(given, "Recording",
-                          {offsetof(Recording, commands), offsetof(Recording, frame)});
-}
-
-Limits read_versioned(const Limits& given) {
-    return read_versioned(given, "Limits",
-                          {offsetof(Limits, cancel), offsetof(Limits, seconds),
-                           offsetof(Limits, user), offsetof(Limits, progress)});
-}
-
-Settings read_versioned(const Settings& given) {
-    const Settings settings =
-        read_versioned(given, "Settings",
-                       {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
-                        offsetof(Settings, device_thresholds), offsetof(Settings, jobs),
-                        offsetof(Settings, techniques), offsetof(Settings, timestamps)});
+void check_structure(const Settings& settings) {
     if (settings.batches_in_flight < 1 || settings.batches_in_flight > max_batches_in_flight) {
         refuse_setting("batches_in_flight is " + std::to_string(settings.batches_in_flight) +
                        "; it must be at least 1 and at most " +
@@ -96,7 +62,6 @@ Settings read_versioned(const Settings& given) {
                        std::to_string(static_cast<int>(settings.bounding_volume)));
     }
     check_jobs(settings.jobs);
-    return settings;
 }
 
 }  // namespace nearfield
