@@ -21,14 +21,11 @@ public:
         graph::Handle samples;
         graph::Handle kept_hits;
     };
-    /// Adds the pass for the tiles of one strategy; returns the new versions of `output`.
-    [[nodiscard]] Output declare(TileGraph& graph, graph::Handle input, graph::Handle hits,
-                                 Output output, IntersectionStrategy strategy) const;
+    /// Adds the pass for the tiles of one strategy.
+    void declare(TileGraph& graph, graph::Handle input, graph::Handle hits, Output& output,
+                 IntersectionStrategy strategy) const;
 
 private:
-    void record(VkCommandBuffer commands, const RecordContext& context,
-                IntersectionStrategy strategy) const;
-
     ComputeShader numbers_;
     ComputeShader colors_;
 };

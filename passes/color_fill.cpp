@@ -31,7 +31,7 @@ ColorFill::ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRende
 }
 
 graph::Handle ColorFill::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const {
-    return add_drawing(graph, "color fill", {{mesh, graph::Access::vertex_buffer}},
+    return add_drawing(graph, "color fill", {{graph::unbound, mesh, graph::Access::vertex_buffer}},
                        {"white inside", white_format, extent, VK_FORMAT_R8_UINT}, {},
                        std::bind_front(&ColorFill::record, this));
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
+#include <engine/graph/compute_layout.hpp>
 
 #include <shaders/push.h>
 
@@ -10,9 +10,9 @@
 
 namespace nearfield::passes {
 
-/// The descriptor set layout and pipeline layout that all compute passes share. The bindings match
-/// the shaders. Fragment shaders may read `output`.
-class ComputeLayout {
+/// The layout that all compute passes share, with names of the bindings of searches, and their
+/// updates.
+class ComputeLayout : public graph::ComputeLayout {
 public:
     enum Binding : std::uint32_t {
         tiles,
@@ -39,19 +39,11 @@ public:
         texels,
         scratch_texels,
     };
-    static constexpr std::uint32_t storage_buffers = 4;
-    static constexpr std::uint32_t sampled_images = 2;
-    static constexpr std::uint32_t storage_images = 2;
-    static constexpr std::uint32_t texel_buffers = 2;
-    static constexpr std::uint32_t bindings =
-        storage_buffers + sampled_images + storage_images + texel_buffers;
     /// Those of the largest push constants.
     static constexpr std::uint32_t push_bytes = sizeof(plan::SearchPush);
 
-    explicit ComputeLayout(const gpu::Device& device);
-
-    [[nodiscard]] VkPipelineLayout pipeline_layout() const { return pipeline_layout_.get(); }
-    [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.get(); }
+    explicit ComputeLayout(const gpu::Device& device)
+        : graph::ComputeLayout(device, push_bytes), device_(&device) {}
 
     /// Bindings are updated in one call: those written between begin_updates() and end_updates().
     /// The device must not be using the sets.
@@ -85,9 +77,6 @@ private:
     // Scratch memory of the updates.
     mutable std::vector<Update> updates_;
     mutable std::vector<VkWriteDescriptorSet> writes_;
-    gpu::Owned<VkSampler> sampler_;
-    gpu::Owned<VkDescriptorSetLayout> set_layout_;
-    gpu::Owned<VkPipelineLayout> pipeline_layout_;
 };
 
 }  // namespace nearfield::passes

@@ -19,21 +19,6 @@ gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t 
     return gpu::make_object(device, info, "compute passes", "nearfield compute sets");
 }
 
-constexpr std::array<const char*, 6 + plan::sign_encodings + intersection_strategies>
-    names_of_tile_batch{"nearfield resolve points set",
-                        "nearfield field by stencil set",
-                        "nearfield field by color set",
-                        "nearfield field by feature bit set",
-                        "nearfield collect gradients set",
-                        "nearfield collect set, stencil",
-                        "nearfield collect set, blend",
-                        "nearfield collect set, logic op",
-                        "nearfield collect set, depth",
-                        "nearfield masks set",
-                        "nearfield fields set",
-                        "nearfield places of fields set",
-                        "nearfield points by lists set"};
-
 }  // namespace
 
 DescriptorSets::DescriptorSets(const gpu::Device& device, const ComputeLayout& layout,
@@ -50,23 +35,6 @@ DescriptorSets::DescriptorSets(const gpu::Device& device, const ComputeLayout& l
     for (std::size_t i = 0; i < names.size(); ++i) {
         device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
     }
-}
-
-ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
-    : all_(device, layout, names_of_tile_batch) {
-    std::size_t next = 0;
-    sets_.points = all_[next++];
-    for (VkDescriptorSet& field : sets_.field) {
-        field = all_[next++];
-    }
-    sets_.gradients = all_[next++];
-    for (VkDescriptorSet& samples : sets_.samples) {
-        samples = all_[next++];
-    }
-    sets_.masks = all_[next++];
-    sets_.fields = all_[next++];
-    sets_.places = all_[next++];
-    sets_.points_by_lists = all_[next++];
 }
 
 }  // namespace nearfield::passes

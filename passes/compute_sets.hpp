@@ -3,7 +3,6 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/record_context.hpp>
 
 #include <cstddef>
 #include <span>
@@ -22,19 +21,6 @@ public:
 private:
     gpu::Owned<VkDescriptorPool> pool_;
     std::vector<VkDescriptorSet> sets_;  // freed with the pool
-};
-
-/// The descriptor sets of one tile batch: one for each combination of bindings that its compute
-/// passes use. Tile batches that can execute concurrently have separate sets.
-class ComputeSets {
-public:
-    ComputeSets(const gpu::Device& device, const ComputeLayout& layout);
-
-    [[nodiscard]] const TileBatchSets& sets() const { return sets_; }
-
-private:
-    DescriptorSets all_;
-    TileBatchSets sets_;
 };
 
 }  // namespace nearfield::passes

@@ -3,6 +3,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/gpu/pipeline.hpp>
+#include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <passes/compute_layout.hpp>
 
@@ -12,7 +13,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
+#include <string>
+#include <utility>
 
 namespace nearfield::passes {
 
@@ -91,5 +95,31 @@ private:
     VkPipelineLayout layout_;
     gpu::Owned<VkPipeline> pipeline_;
 };
+
+/// What passes do with most buffers.
+inline constexpr graph::Access read = graph::Access::storage_read_in_compute;
+inline constexpr graph::Access write = graph::Access::storage_write_in_compute;
+
+/// Adds a pass of one shader, which has to stay: what it uses and at which bindings it finds it,
+/// and `record(shader, commands, input)`, which dispatches it. The shader and the pass's first
+/// descriptor set are bound already.
+template <class Input, class Record>
+void add_pass(graph::RecordedGraph<Input>& graph, std::string name, const ComputeShader& shader,
+              std::span<const graph::Bound> bound, Record record) {
+    graph.add_pass(
+        std::move(name), graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) { pass.use(bound); },
+        [&shader, record = std::move(record)](const graph::PassCommands& commands,
+                                              const Input& input) {
+            shader.bind(commands, commands.set());
+            record(shader, commands, input);
+        });
+}
+template <class Input, class Record>
+void add_pass(graph::RecordedGraph<Input>& graph, std::string name, const ComputeShader& shader,
+              std::initializer_list<graph::Bound> bound, Record record) {
+    add_pass(graph, std::move(name), shader, std::span(bound.begin(), bound.size()),
+             std::move(record));
+}
 
 }  // namespace nearfield::passes

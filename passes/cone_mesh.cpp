@@ -30,7 +30,7 @@ ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderP
 }
 
 graph::Handle ConeMesh::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const {
-    return add_drawing(graph, "cone mesh", {{mesh, graph::Access::vertex_buffer}},
+    return add_drawing(graph, "cone mesh", {{graph::unbound, mesh, graph::Access::vertex_buffer}},
                        {"features", number_format, extent},
                        {"distance", distance_depth_format, extent},
                        std::bind_front(&ConeMesh::record, this));

@@ -5,13 +5,13 @@
 namespace nearfield::passes {
 
 graph::Handle add_drawing(TileGraph& graph, const char* name,
-                          std::initializer_list<graph::Read> reads, graph::ImageDescription image,
+                          std::initializer_list<graph::Bound> reads, graph::ImageDescription image,
                           graph::ImageDescription tested, TileGraph::Record record) {
     graph::Handle drawn = graph.create_image(std::move(image));
     graph.add_pass(
         name, graph::PassKind::graphics,
         [&](graph::PassBuilder& pass) {
-            pass.read(reads);
+            pass.use(reads);
             drawn = pass.write(drawn, graph::Access::color_attachment);
             if (tested.format != VK_FORMAT_UNDEFINED) {
                 static_cast<void>(pass.write(graph.create_image(std::move(tested)),

@@ -8,10 +8,10 @@
 
 namespace nearfield::passes {
 
-/// Adds a pass that reads resources and draws into a new image, tested against a new image of
+/// Adds a pass that uses resources and draws into a new image, tested against a new image of
 /// depths, stencils or both (one without a format: no test). Returns the new version of the former.
 [[nodiscard]] graph::Handle add_drawing(TileGraph& graph, const char* name,
-                                        std::initializer_list<graph::Read> reads,
+                                        std::initializer_list<graph::Bound> reads,
                                         graph::ImageDescription image,
                                         graph::ImageDescription tested, TileGraph::Record record);
 

@@ -29,29 +29,29 @@ void EarlyOut::end(VkCommandBuffer commands, std::uint32_t query) const {
     device_->functions().vkCmdEndQuery(commands, pool_.get(), query);
 }
 
-graph::Handle EarlyOut::declare(TileGraph& graph, graph::Handle samples,
-                                IntersectionStrategy strategy) const {
+void EarlyOut::declare(TileGraph& graph, graph::Handle& samples,
+                       IntersectionStrategy strategy) const {
     graph.add_pass(
         "early out", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             samples = pass.write(samples, graph::Access::transfer_write);
         },
-        [this, strategy](VkCommandBuffer commands, const RecordContext& context) {
-            record(commands, context, strategy);
+        [this, strategy, samples](const graph::PassCommands& commands,
+                                  const RecordContext& context) {
+            record(commands, context, strategy, commands.part(samples, sample_parts::summaries));
         });
-    return samples;
 }
 
 void EarlyOut::record(VkCommandBuffer commands, const RecordContext& context,
-                      IntersectionStrategy strategy) const {
+                      IntersectionStrategy strategy, const gpu::BufferPart& summaries) const {
     const std::vector<plan::WatchedTile>& watched = context.batch.raster.watched;
     for (std::uint32_t query = 0; query < watched.size(); ++query) {
         if (watched[query].strategy == strategy) {
-            const VkDeviceSize offset = context.summaries_offset +
+            const VkDeviceSize offset = summaries.offset +
                                         watched[query].tile * sizeof(plan::TileSummary) +
                                         offsetof(plan::TileSummary, passed);
             device_->functions().vkCmdCopyQueryPoolResults(
-                commands, pool_.get(), query, 1, context.read_back, offset, sizeof(std::uint32_t),
+                commands, pool_.get(), query, 1, summaries.buffer, offset, sizeof(std::uint32_t),
                 VK_QUERY_RESULT_WAIT_BIT);
         }
     }

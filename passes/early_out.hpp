@@ -28,14 +28,12 @@ public:
 
     /// Adds the pass that writes whether any sample passed to the summaries of a strategy's tiles
     /// (plan::TileSummary::passed). Declare it after the pass that draws them: queries are not
-    /// resources of the graph, so only the order of declaration orders the two. Returns the new
-    /// version of `samples`.
-    [[nodiscard]] graph::Handle declare(TileGraph& graph, graph::Handle samples,
-                                        IntersectionStrategy strategy) const;
+    /// resources of the graph, so only the order of declaration orders the two.
+    void declare(TileGraph& graph, graph::Handle& samples, IntersectionStrategy strategy) const;
 
 private:
     void record(VkCommandBuffer commands, const RecordContext& context,
-                IntersectionStrategy strategy) const;
+                IntersectionStrategy strategy, const gpu::BufferPart& summaries) const;
 
     const gpu::Device* device_;
     gpu::Owned<VkQueryPool> pool_;

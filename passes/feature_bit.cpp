@@ -50,7 +50,8 @@ FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRen
 }
 
 graph::Handle FeatureBit::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const {
-    return add_drawing(graph, "signed cone mesh", {{mesh, graph::Access::vertex_buffer}},
+    return add_drawing(graph, "signed cone mesh",
+                       {{graph::unbound, mesh, graph::Access::vertex_buffer}},
                        {"signed features", signed_feature_format, extent, number_format},
                        {"distance under signed features", distance_depth_format, extent},
                        std::bind_front(&FeatureBit::record, this));

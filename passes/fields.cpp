@@ -12,7 +12,6 @@
 #include <shaders/resolve_features_comp.hpp>
 #include <shaders/resolve_field_points_by_walks_comp.hpp>
 
-#include <functional>
 #include <string>
 
 namespace nearfield::passes {
@@ -24,11 +23,6 @@ namespace {
 ComputeShader make_field_shader(const gpu::Device& device, const ComputeLayout& layout,
                                 gpu::Spirv code, const char* name) {
     return {device, layout, code, name, search_constants(device)};
-}
-
-void write(graph::PassBuilder& pass, Fields::Output& output) {
-    output.long_searches = pass.write(output.long_searches, Access::storage_write_in_compute);
-    output.field = pass.write(output.field, Access::storage_write_in_compute);
 }
 
 plan::FieldPush push_of(const RecordContext& context) {
@@ -46,6 +40,16 @@ plan::FieldPush push_of(const RecordContext& context) {
     push.crowd = lists.crowd;
     push.resident = context.batch.resident ? 1 : 0;
     return push;
+}
+
+void dispatch_threads_of(const ComputeShader& shader, VkCommandBuffer commands,
+                         const RecordContext& context, std::uint64_t threads) {
+    plan::FieldPush push = push_of(context);
+    push.end = static_cast<std::uint32_t>(threads);
+    shader.dispatch_in_parts(commands, 0, push.end, [&](std::uint32_t first) {
+        push.first = first;
+        shader.push(commands, push);
+    });
 }
 
 }  // namespace
@@ -81,123 +85,89 @@ Fields::Fields(const gpu::Device& device, const ComputeLayout& layout)
       points_(make_field_shader(device, layout, shaders::resolve_field_points_by_walks_comp,
                                 "nearfield resolve field points by walks")) {}
 
-Fields::Buffers Fields::declare_lists(TileGraph& graph, Buffers buffers) const {
+void Fields::declare_lists(TileGraph& graph, Buffers& buffers) const {
     for (const ListPass& list : lists_) {
-        graph.add_pass(
-            list.name, graph::PassKind::compute,
-            [&](graph::PassBuilder& pass) {
-                pass.read(buffers.input, Access::storage_read_in_compute);
-                buffers.scratch = pass.write(buffers.scratch, Access::storage_write_in_compute);
-                if (&list == &lists_.back()) {
-                    buffers.crowd = pass.write(buffers.crowd, Access::storage_write_in_compute);
-                }
-            },
-            [this, &list](VkCommandBuffer commands, const RecordContext& context) {
-                record_list(commands, context, list);
-            });
+        graph::Handle none;
+        add_pass(graph, list.name, list.shader,
+                 {{0, buffers.input},
+                  {1, buffers.scratch, write},
+                  {2, &list == &lists_.back() ? buffers.crowd : none, write}},
+                 [by_groups = lists_by_groups_, squares = list.squares](
+                     const ComputeShader& shader, VkCommandBuffer commands,
+                     const RecordContext& context) {
+                     const std::uint32_t count = context.batch.compute.fields.*squares;
+                     if (!by_groups) {
+                         dispatch_threads_of(shader, commands, context, count);
+                         return;
+                     }
+                     plan::FieldPush push = push_of(context);
+                     shader.dispatch_workgroups(commands, count, [&](std::uint32_t first) {
+                         push.first = first;
+                         shader.push(commands, push);
+                     });
+                 });
     }
-    return buffers;
 }
 
-graph::Handle Fields::declare_values(TileGraph& graph, const Buffers& buffers,
-                                     graph::Handle field) const {
-    return graph.add_compute_pass(
-        "resolve blocks",
-        {{buffers.input, Access::storage_read_in_compute},
-         {buffers.scratch, Access::storage_read_in_compute}},
-        field, [this](VkCommandBuffer commands, const RecordContext& context) {
-            dispatch(commands, context, values_,
-                     std::uint64_t{plan::threads_per_block} * context.batch.compute.fields.blocks);
+void Fields::declare_values(TileGraph& graph, Buffers buffers, graph::Handle& field) const {
+    add_pass(
+        graph, "resolve blocks", values_,
+        {{0, buffers.input}, {1, buffers.scratch}, {3, field, write}},
+        [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
+            dispatch_threads_of(
+                shader, commands, context,
+                std::uint64_t{plan::threads_per_block} * context.batch.compute.fields.blocks);
         });
 }
 
-graph::Handle Fields::declare_features(TileGraph& graph, const Buffers& buffers,
-                                       graph::Handle field) const {
-    return graph.add_compute_pass(
-        "resolve features",
-        {{buffers.input, Access::storage_read_in_compute},
-         {buffers.scratch, Access::storage_read_in_compute}},
-        field, [this](VkCommandBuffer commands, const RecordContext& context) {
+void Fields::declare_features(TileGraph& graph, Buffers buffers, graph::Handle& field) const {
+    add_pass(
+        graph, "resolve features", features_,
+        {{0, buffers.input}, {1, buffers.scratch}, {3, field, write}},
+        [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
             constexpr std::uint64_t cells_per_thread = 4;
             constexpr std::uint64_t threads =
                 std::uint64_t{plan::block_side} * plan::block_side / cells_per_thread;
-            dispatch(commands, context, features_, threads * context.batch.compute.fields.blocks);
+            dispatch_threads_of(shader, commands, context,
+                                threads * context.batch.compute.fields.blocks);
         });
 }
 
-Fields::Output Fields::declare_crowded(TileGraph& graph, const Buffers& buffers,
-                                       Output output) const {
-    graph.add_pass(
-        "resolve crowded blocks", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(buffers.input, Access::storage_read_in_compute);
-            pass.read(buffers.scratch, Access::storage_read_in_compute);
-            pass.read(buffers.crowd, Access::indirect_arguments);
-            write(pass, output);
-        },
-        std::bind_front(&Fields::record_crowded, this));
-    return output;
-}
-
-Fields::Output Fields::declare_points(TileGraph& graph, graph::Handle input, Output output) const {
-    graph.add_pass(
-        "resolve field points by walks", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(input, Access::storage_read_in_compute);
-            write(pass, output);
-        },
-        std::bind_front(&Fields::record_points, this));
-    return output;
-}
-
-void Fields::dispatch(VkCommandBuffer commands, const RecordContext& context,
-                      const ComputeShader& shader, std::uint64_t threads) const {
-    plan::FieldPush push = push_of(context);
-    push.end = static_cast<std::uint32_t>(threads);
-    shader.bind(commands, context.sets.fields);
-    shader.dispatch_in_parts(commands, 0, push.end, [&](std::uint32_t first) {
-        push.first = first;
-        shader.push(commands, push);
-    });
-}
-
-void Fields::record_list(VkCommandBuffer commands, const RecordContext& context,
-                         const ListPass& list) const {
-    const std::uint32_t squares = context.batch.compute.fields.*list.squares;
-    if (!lists_by_groups_) {
-        dispatch(commands, context, list.shader, squares);
-        return;
-    }
-    plan::FieldPush push = push_of(context);
-    list.shader.bind(commands, context.sets.fields);
-    list.shader.dispatch_workgroups(commands, squares, [&](std::uint32_t first) {
-        push.first = first;
-        list.shader.push(commands, push);
-    });
-}
-
-void Fields::record_crowded(VkCommandBuffer commands, const RecordContext& context) const {
-    crowded_.bind(commands, context.sets.places);
-    crowded_.push(commands, push_of(context));
-    crowded_.dispatch_indirect(commands, context.crowd, 0);
-}
-
-void Fields::record_points(VkCommandBuffer commands, const RecordContext& context) const {
-    plan::FieldPush push = push_of(context);
-    const std::uint32_t first_point =
-        push.tiles + push.tile_count * plan::units_of_field_tile;  // units; one per point
-    points_.bind(commands, context.sets.places);
-    for (const plan::FieldPointRun& run : context.batch.field_point_runs) {
-        push.points = first_point + run.first;
-        push.first_word = run.first_word;
-        push.words_per_point = run.parts.words_per_point;
-        push.cells_per_point = run.parts.cells_per_point;
-        push.end = run.count * (1 + push.cells_per_point);
-        points_.dispatch_in_parts(commands, 0, push.end, [&](std::uint32_t first) {
-            push.first = first;
-            points_.push(commands, push);
+void Fields::declare_crowded(TileGraph& graph, Buffers buffers, Output& output) const {
+    add_pass(
+        graph, "resolve crowded blocks", crowded_,
+        {{0, buffers.input},
+         {1, buffers.scratch},
+         {graph::unbound, buffers.crowd, Access::indirect_arguments},
+         {2, output.long_searches, write},
+         {3, output.field, write}},
+        [crowd = buffers.crowd](const ComputeShader& shader, const graph::PassCommands& commands,
+                                const RecordContext& context) {
+            shader.push(commands, push_of(context));
+            shader.dispatch_indirect(commands, commands.part(crowd).buffer, 0);
         });
-    }
+}
+
+void Fields::declare_points(TileGraph& graph, graph::Handle input, Output& output) const {
+    add_pass(
+        graph, "resolve field points by walks", points_,
+        {{0, input}, {2, output.long_searches, write}, {3, output.field, write}},
+        [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
+            plan::FieldPush push = push_of(context);
+            const std::uint32_t first_point =
+                push.tiles + push.tile_count * plan::units_of_field_tile;  // units; one per point
+            for (const plan::FieldPointRun& run : context.batch.field_point_runs) {
+                push.points = first_point + run.first;
+                push.first_word = run.first_word;
+                push.words_per_point = run.parts.words_per_point;
+                push.cells_per_point = run.parts.cells_per_point;
+                push.end = run.count * (1 + push.cells_per_point);
+                shader.dispatch_in_parts(commands, 0, push.end, [&](std::uint32_t first) {
+                    push.first = first;
+                    shader.push(commands, push);
+                });
+            }
+        });
 }
 
 }  // namespace nearfield::passes

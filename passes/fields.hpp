@@ -26,15 +26,12 @@ public:
         graph::Handle scratch;
         graph::Handle crowd;
     };
-    /// Adds the passes that list edges; returns the new versions.
-    [[nodiscard]] Buffers declare_lists(TileGraph& graph, Buffers buffers) const;
+    /// Adds the passes that list edges.
+    void declare_lists(TileGraph& graph, Buffers& buffers) const;
     /// Adds the pass that writes the signed distances of cells; reads the masks for the signs.
-    /// Returns the new version of `field`, as the others do.
-    [[nodiscard]] graph::Handle declare_values(TileGraph& graph, const Buffers& buffers,
-                                               graph::Handle field) const;
+    void declare_values(TileGraph& graph, Buffers buffers, graph::Handle& field) const;
     /// Adds the pass that writes the nearest features of cells.
-    [[nodiscard]] graph::Handle declare_features(TileGraph& graph, const Buffers& buffers,
-                                                 graph::Handle field) const;
+    void declare_features(TileGraph& graph, Buffers buffers, graph::Handle& field) const;
     /// What a pass writes that searches place by place: the number of places for which that took
     /// too long, and the results.
     struct Output {
@@ -42,10 +39,9 @@ public:
         graph::Handle field;
     };
     /// Adds the pass that writes both in crowded blocks.
-    [[nodiscard]] Output declare_crowded(TileGraph& graph, const Buffers& buffers,
-                                         Output output) const;
-    /// Adds the pass for points of fields; it writes the same words as ResolveFieldPoints.
-    [[nodiscard]] Output declare_points(TileGraph& graph, graph::Handle input, Output output) const;
+    void declare_crowded(TileGraph& graph, Buffers buffers, Output& output) const;
+    /// Adds the pass for points of fields; it writes the same words as ResolveField.
+    void declare_points(TileGraph& graph, graph::Handle input, Output& output) const;
 
 private:
     /// A pass that makes a list for each region, quarter or block.
@@ -56,12 +52,6 @@ private:
     };
     static std::vector<ListPass> make_lists(const gpu::Device& device, const ComputeLayout& layout,
                                             bool by_groups);
-    void dispatch(VkCommandBuffer commands, const RecordContext& context,
-                  const ComputeShader& shader, std::uint64_t threads) const;
-    void record_list(VkCommandBuffer commands, const RecordContext& context,
-                     const ListPass& list) const;
-    void record_crowded(VkCommandBuffer commands, const RecordContext& context) const;
-    void record_points(VkCommandBuffer commands, const RecordContext& context) const;
 
     bool lists_by_groups_;
     std::vector<ListPass> lists_;  ///< the last one also counts crowded blocks

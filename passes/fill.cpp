@@ -7,9 +7,10 @@
 namespace nearfield::passes {
 
 graph::Handle Fill::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const {
-    return add_drawing(
-        graph, "fill", {{mesh, graph::Access::vertex_buffer}}, {"sign", number_format, extent},
-        {"fill stencil", device_->stencil_format(), extent}, std::bind_front(&Fill::record, this));
+    return add_drawing(graph, "fill", {{graph::unbound, mesh, graph::Access::vertex_buffer}},
+                       {"sign", number_format, extent},
+                       {"fill stencil", device_->stencil_format(), extent},
+                       std::bind_front(&Fill::record, this));
 }
 
 void Fill::record(VkCommandBuffer commands, const RecordContext& context) const {

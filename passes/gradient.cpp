@@ -49,19 +49,19 @@ Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRen
 
 graph::Handle Gradient::declare(TileGraph& graph, graph::Handle mesh, graph::Handle field,
                                 VkExtent2D extent) const {
-    return add_drawing(
-        graph, "gradient",
-        {{mesh, graph::Access::vertex_buffer}, {field, graph::Access::storage_read_in_fragment}},
-        {"gradient", device_->gradient_format(), extent}, {},
-        std::bind_front(&Gradient::record, this));
+    return add_drawing(graph, "gradient",
+                       {{graph::unbound, mesh, graph::Access::vertex_buffer},
+                        {3, field, graph::Access::storage_read_in_fragment}},
+                       {"gradient", device_->gradient_format(), extent}, {},
+                       std::bind_front(&Gradient::record, this));
 }
 
-void Gradient::record(VkCommandBuffer commands, const RecordContext& context) const {
+void Gradient::record(const graph::PassCommands& commands, const RecordContext& context) const {
     const gpu::Functions& functions = device_->functions();
     const TileRenderer renderer(*device_, layout_.get(), commands, context);
-    // The sets of all field passes bind the same buffer of values.
+    const VkDescriptorSet set = commands.set();
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0,
-                                      1, &context.sets.gradients, 0, nullptr);
+                                      1, &set, 0, nullptr);
     const float largest = device_->gradient_format() == VK_FORMAT_R16G16_SFLOAT
                               ? largest_half
                               : std::numeric_limits<float>::max();

@@ -21,7 +21,7 @@ public:
                           VkExtent2D extent) const;
 
 private:
-    void record(VkCommandBuffer commands, const RecordContext& context) const;
+    void record(const graph::PassCommands& commands, const RecordContext& context) const;
 
     const gpu::Device* device_;
     gpu::Owned<VkPipelineLayout> layout_;

@@ -14,7 +14,8 @@ graph::Handle Intersect::declare(TileGraph& graph, graph::Handle mesh, VkExtent2
                                  IntersectionStrategy strategy) const {
     const StrategySteps& steps = strategies_->steps(strategy);
     const std::string name = to_string(strategy);
-    return add_drawing(graph, steps.pass_name, {{mesh, graph::Access::vertex_buffer}},
+    return add_drawing(graph, steps.pass_name,
+                       {{graph::unbound, mesh, graph::Access::vertex_buffer}},
                        {name + " hits", steps.color_format, extent},
                        {name + " depth and stencil", device_->stencil_format(), extent},
                        [this, strategy](VkCommandBuffer commands, const RecordContext& context) {

@@ -16,29 +16,17 @@ public:
 
     /// Adds the pass that clears masks and the edges of cells; the first of all passes that use the
     /// scratch memory. It waits for earlier use of that memory on the device, so tile batches may
-    /// follow each other in a command buffer or in a queue. Like all functions below, it returns
-    /// the new version of the scratch memory.
-    [[nodiscard]] graph::Handle declare_clear(TileGraph& graph, graph::Handle scratch) const;
+    /// follow each other in a command buffer or in a queue.
+    void declare_clear(TileGraph& graph, graph::Handle& scratch) const;
     /// Adds the pass that puts shapes into masks: of volumes it marks the edges.
-    [[nodiscard]] graph::Handle declare_shapes(TileGraph& graph, graph::Handle shapes,
-                                               graph::Handle scratch) const;
+    void declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle& scratch) const;
     /// Adds the pass that fills the rows of fields.
-    [[nodiscard]] graph::Handle declare_fill(TileGraph& graph, graph::Handle input,
-                                             graph::Handle scratch) const;
-    struct Collected {
-        graph::Handle input;
-        graph::Handle scratch;
-        graph::Handle samples;
-    };
+    void declare_fill(TileGraph& graph, graph::Handle input, graph::Handle& scratch) const;
     /// Adds the pass that fills the rows of intersections and writes the same output as Collect.
-    [[nodiscard]] graph::Handle declare_collect(TileGraph& graph, Collected buffers) const;
+    void declare_collect(TileGraph& graph, graph::Handle input, graph::Handle& scratch,
+                         graph::Handle samples) const;
 
 private:
-    void record_clear(VkCommandBuffer commands, const RecordContext& context) const;
-    void record_shapes(VkCommandBuffer commands, const RecordContext& context) const;
-    void record_rows(VkCommandBuffer commands, const RecordContext& context) const;
-    void record_collect(VkCommandBuffer commands, const RecordContext& context) const;
-
     const gpu::Device* device_;
     ComputeShader shapes_;
     ComputeShader rows_;

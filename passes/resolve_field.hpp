@@ -16,32 +16,33 @@ struct FieldImages {
         graph::Handle sign;  ///< the same image if the sign is a bit of the feature
     };
     std::array<Pair, plan::sign_encodings> by_encoding;
-
-    /// Adds a compute pass that reads each image, once, and the input of all passes; returns the
-    /// new version of `field`, which it writes.
-    [[nodiscard]] graph::Handle add_pass(TileGraph& graph, const char* name, graph::Handle input,
-                                         graph::Handle field, TileGraph::Record record) const;
 };
 
-/// The bits of a texel of an encoding's sign image that are set inside B.
-[[nodiscard]] std::uint32_t sign_mask(SignEncoding encoding);
-
-/// The requested outputs at every cell of the field tiles (section 2.2.2 of the paper): the signed
-/// distance at its centre, in cells, and the nearest of B's edges (a word of plan::point_inside and
-/// the other flags). Reads the feature and sign images, tiles and edge lists; writes the field's
-/// buffer, tile after tile.
+/// What is read back of the fields of the raster technique, tile after tile or point after point.
 class ResolveField {
 public:
     ResolveField(const gpu::Device& device, const ComputeLayout& layout);
 
-    /// Adds the pass; returns the new version of `field`.
-    [[nodiscard]] graph::Handle declare(TileGraph& graph, graph::Handle input,
-                                        const FieldImages& images, graph::Handle field) const;
+    /// Adds the pass for the requested outputs at every cell of the field tiles (section 2.2.2 of
+    /// the paper): the signed distance at its centre, in cells, and the nearest of B's edges (a
+    /// word of plan::point_inside and the other flags). Reads the feature and sign images, tiles
+    /// and edge lists.
+    void declare_cells(TileGraph& graph, graph::Handle input, FieldImages images,
+                       graph::Handle& field) const;
+    /// Adds the pass for the cells from which a field is reconstructed at points (section 2.2.2:
+    /// only the requested pixels are read back), and the feature nearest to each point. Reads the
+    /// points, too; writes a few words per point (plan::FieldParts).
+    void declare_points(TileGraph& graph, graph::Handle input, FieldImages images,
+                        graph::Handle& field) const;
+    /// Adds the pass that copies blended gradients: whole tiles, and the four cells around each
+    /// point.
+    void declare_gradients(TileGraph& graph, graph::Handle input, graph::Handle gradients,
+                           graph::Handle& field) const;
 
 private:
-    void record(VkCommandBuffer commands, const RecordContext& context) const;
-
-    ComputeShader shader_;
+    ComputeShader cells_;
+    ComputeShader points_;
+    ComputeShader gradients_;
 };
 
 }  // namespace nearfield::passes

@@ -3,8 +3,6 @@
 #include <shaders/resolve_points_by_lists_comp.hpp>
 #include <shaders/resolve_points_comp.hpp>
 
-#include <functional>
-
 namespace nearfield::passes {
 
 ResolvePoints::ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, Source source)
@@ -17,20 +15,20 @@ ResolvePoints::ResolvePoints(const gpu::Device& device, const ComputeLayout& lay
 
 void ResolvePoints::declare(TileGraph& graph, graph::Handle input, graph::Handle results,
                             graph::Handle features, graph::Handle sign) const {
-    static_cast<void>(graph.add_compute_pass(
-        source_ == Source::images ? "resolve points" : "resolve points by lists",
-        {{input, graph::Access::storage_read_in_compute},
-         {features, graph::Access::sampled_in_compute},
-         {sign, graph::Access::sampled_in_compute}},
-        results, std::bind_front(&ResolvePoints::record, this)));
-}
-
-void ResolvePoints::record(VkCommandBuffer commands, const RecordContext& context) const {
-    shader_.bind(commands,
-                 source_ == Source::images ? context.sets.points : context.sets.points_by_lists);
-    const auto count = static_cast<std::uint32_t>(context.batch.points.size());
-    shader_.dispatch_elements<plan::ResolvePointsPush>(
-        commands, 0, count, context.batch.resident ? count : plan::not_asked);
+    using graph::Access;
+    add_pass(
+        graph, source_ == Source::images ? "resolve points" : "resolve points by lists", shader_,
+        {{0, input, read, input_parts::tiles},
+         {1, input, read, input_parts::edges},
+         {2, input, read, input_parts::points},
+         {4, features, Access::sampled_in_compute},
+         {5, sign, Access::sampled_in_compute},
+         {3, results, write}},
+        [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
+            const auto count = static_cast<std::uint32_t>(context.batch.points.size());
+            shader.dispatch_elements<plan::ResolvePointsPush>(
+                commands, 0, count, context.batch.resident ? count : plan::not_asked);
+        });
 }
 
 }  // namespace nearfield::passes

@@ -20,14 +20,11 @@ public:
     };
     ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, Source source);
 
-    /// Adds the pass. The caller provides the buffers and images in the descriptor set of the
-    /// record context. Without images, leave out the last two parameters.
+    /// Adds the pass. Without images, leave out the last two parameters.
     void declare(TileGraph& graph, graph::Handle input, graph::Handle results,
                  graph::Handle features = {}, graph::Handle sign = {}) const;
 
 private:
-    void record(VkCommandBuffer commands, const RecordContext& context) const;
-
     Source source_;
     ComputeShader shader_;
 };

@@ -1,4 +1,5 @@
 #include <engine/base/status_exception.hpp>
+#include <engine/base/unique_numbers.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/sharing.hpp>
 
@@ -56,7 +57,14 @@ bool MappedBuffer::reserve(std::uint64_t bytes) {
         throw;
     }
     capacity_ = capacity;
+    identity_ = next_revision();
     return true;
+}
+
+BufferPart MappedBuffer::part(std::uint64_t offset, std::uint64_t bytes) const {
+    constexpr std::uint64_t unit = 16;
+    const std::uint64_t units = std::max<std::uint64_t>((bytes + unit - 1) / unit, 1);
+    return {buffer_.get(), offset, units * unit, VK_NULL_HANDLE, identity_};
 }
 
 std::uint64_t MappedBuffer::grown(std::uint64_t bytes) const {

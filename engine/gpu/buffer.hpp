@@ -16,6 +16,18 @@ namespace nearfield::gpu {
 /// `none`: memory that never leaves the device.
 enum class Direction { upload, readback, none };
 
+/// A part of a buffer, as shaders and commands are given it.
+struct BufferPart {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkDeviceSize bytes = 0;
+    VkBufferView texels = VK_NULL_HANDLE;  ///< of the whole buffer, where shaders read it so
+    /// Of the buffer: once it is gone, another one may have its handle. 0 for the host's.
+    std::uint64_t identity = 0;
+
+    friend bool operator==(const BufferPart&, const BufferPart&) = default;
+};
+
 /// A buffer that only grows; permanently mapped if the host accesses it.
 class MappedBuffer {
 public:
@@ -30,6 +42,10 @@ public:
 
     [[nodiscard]] VkBuffer handle() const { return buffer_.get(); }
     [[nodiscard]] std::uint64_t capacity() const { return capacity_; }
+    /// A part, up to the next whole unit of 16 bytes: shaders read words as vectors of four, and of
+    /// a vector that ends beyond the range some devices read zeros. At least one unit, since Vulkan
+    /// forbids an empty range: a pass without work reads nothing.
+    [[nodiscard]] BufferPart part(std::uint64_t offset, std::uint64_t bytes) const;
     /// Aligned to at least 64 bytes; null for Direction::none.
     [[nodiscard]] std::byte* data() const { return data_; }
 
@@ -53,6 +69,7 @@ private:
     Owned<VkBuffer> buffer_;
     std::byte* data_ = nullptr;
     std::uint64_t capacity_ = 0;
+    std::uint64_t identity_ = 0;
     bool coherent_ = true;
 };
 

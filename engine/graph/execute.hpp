@@ -48,6 +48,9 @@ struct ImportedImage {
     std::uint32_t level = 0;
     std::uint32_t layer = 0;
     std::optional<ExternalUses> uses = std::nullopt;
+    VkImageView view = VK_NULL_HANDLE;  ///< of the level and layer, for shaders
+    /// Of the view: once it is gone, another one may have its handle.
+    std::uint64_t identity = 0;
 };
 
 /// The Vulkan objects of a baked graph (transient images in shared memory, views, render passes,

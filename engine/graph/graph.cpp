@@ -1,5 +1,7 @@
+#include <engine/graph/access.hpp>
 #include <engine/graph/graph.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace nearfield::graph {
@@ -19,6 +21,29 @@ void PassBuilder::read(std::span<const Read> reads) {
 Handle PassBuilder::write(Handle handle, Access access) {
     pass_.uses.push_back({.handle = handle, .access = access, .write = true});
     return {.resource = handle.resource, .version = handle.version + 1};
+}
+
+void PassBuilder::use(std::span<const Bound> bound) {
+    for (const Bound& each : bound) {
+        if (each.handle == Handle{}) {
+            continue;
+        }
+        const bool is_known =
+            std::any_of(pass_.uses.begin(), pass_.uses.end(), [&each](const Use& use) {
+                return use.handle.resource == each.handle.resource && use.access == each.access;
+            });
+        if (!is_known && traits(each.access).writes) {
+            each.handle = write(each.handle, each.access);
+        } else if (!is_known) {
+            read(each.handle, each.access);
+        }
+        if (each.binding != unbound) {
+            pass_.bindings.push_back({.set = each.set,
+                                      .binding = each.binding,
+                                      .resource = each.handle.resource,
+                                      .part = each.part});
+        }
+    }
 }
 
 Handle Graph::create_image(ImageDescription description) {

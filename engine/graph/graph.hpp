@@ -3,6 +3,7 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,10 +81,34 @@ struct Use {
     bool write = false;
 };
 
+/// The binding of what no shader finds at one: arguments of a dispatch, the ends of a copy.
+inline constexpr std::uint32_t unbound = UINT32_MAX;
+/// What all of a pass's descriptor sets have at a binding.
+inline constexpr std::uint32_t every_set = UINT32_MAX;
+
+/// What a pass uses, and at which binding its shaders find it: all that there is to say about it.
+/// Null handles are left out.
+struct Bound {
+    std::uint32_t binding = unbound;
+    Handle& handle;  ///< replaced by the new version where the access writes
+    Access access = Access::storage_read_in_compute;
+    std::uint32_t part = 0;         ///< of a buffer that is bound in parts
+    std::uint32_t set = every_set;  ///< of a pass that has several sets, which it binds in turn
+};
+
+/// What is at a binding of a descriptor set.
+struct Binding {
+    std::uint32_t set = every_set;
+    std::uint32_t binding = 0;
+    std::uint32_t resource = 0;
+    std::uint32_t part = 0;
+};
+
 struct Pass {
     std::string name;
     PassKind kind{};
     std::vector<Use> uses;
+    std::vector<Binding> bindings;
 };
 
 /// What a pass reads, and how.
@@ -104,6 +129,9 @@ public:
     /// (or the host wrote it); a version 0 is undefined to the pass, which has to initialise the
     /// parts it uses.
     [[nodiscard]] Handle write(Handle handle, Access access);
+    /// Reads and writes as the accesses say. What is bound several times, in the same way, is used
+    /// once.
+    void use(std::span<const Bound> bound);
 
 private:
     Pass& pass_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <engine/graph/bound_resources.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/graph/execute.hpp>
 #include <engine/graph/graph.hpp>
 #include <engine/graph/print.hpp>
@@ -14,14 +16,14 @@
 namespace nearfield::graph {
 
 /// A graph with the functions that record its passes and the Vulkan objects that execute it. All
-/// passes are recorded from one const `Input`, an argument of each execution, so that nothing stays
-/// in a pass from one execution to the next.
+/// passes are recorded from one const `Input` and from what is bound, arguments of each execution,
+/// so that nothing stays in a pass from one execution to the next.
 template <class Input>
 class RecordedGraph : public Graph {
 public:
     /// Records a pass's commands. The graph has already recorded the barriers, the start of the
     /// render pass (for a graphics pass), the label and the first timestamp.
-    using Record = std::function<void(VkCommandBuffer, const Input&)>;
+    using Record = std::function<void(const PassCommands&, const Input&)>;
 
     RecordedGraph() = default;
     RecordedGraph(const RecordedGraph&) = delete;
@@ -49,16 +51,34 @@ public:
     }
 
     /// Makes the Vulkan objects, once all passes are declared.
-    void compile(const gpu::Device& device) { executor_ = make_executor(device, *this); }
+    void compile(const gpu::Device& device) {
+        device_ = &device;
+        plan_ = SetPlan(*this);
+        executor_ = make_executor(device, *this);
+    }
 
     /// The precondition of all that follows: compile().
     [[nodiscard]] Executor& executor() const { return *executor_; }
 
+    /// Resources to execute it with.
+    [[nodiscard]] BoundResources make_resources(const ComputeLayout& layout) const {
+        return {*device_, layout, *this, plan_, *executor_};
+    }
+
     /// Records all passes; see Executor::execute.
+    void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                 const BoundResources& resources, const Input& input) const {
+        resources.set_barriers();
+        const auto record = [&](std::size_t pass, VkCommandBuffer into) {
+            records_[pass](PassCommands(into, &resources, pass), input);
+        };
+        executor_->execute(*this, commands, timestamps, std::ref(record));
+    }
+    /// The same of passes that bind nothing, with what the executor was given.
     void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Input& input) const {
         executor_->execute(*this, commands, timestamps,
                            [this, &input](std::size_t pass, VkCommandBuffer into) {
-                               records_[pass](into, input);
+                               records_[pass](PassCommands(into, nullptr, pass), input);
                            });
     }
 
@@ -67,7 +87,9 @@ public:
     }
 
 private:
+    const gpu::Device* device_ = nullptr;
     std::vector<Record> records_;  // by position of the pass
+    SetPlan plan_;
     std::unique_ptr<Executor> executor_;
 };
 

@@ -8,16 +8,6 @@
 namespace nearfield::render {
 namespace {
 
-// All passes for points and fields, and three per strategy.
-constexpr std::uint32_t max_passes = 16 + 3 * intersection_strategies;
-
-// Passes beyond those of the tile batches: the copy to the read-back; one per resident field; three
-// per query with resident records or samples; that of all headers.
-std::uint32_t export_passes(const plan::ResidentOutputs& resident) {
-    return static_cast<std::uint32_t>(2 + resident.fields.size() + 3 * resident.records.size() +
-                                      3 * resident.samples.size());
-}
-
 template <class Element>
 void copy_to(std::byte* target, const std::vector<Element>& elements) {
     if (!elements.empty()) {
@@ -56,18 +46,20 @@ std::span<const Element> elements_at(const gpu::MappedBuffer& buffer, std::uint6
 }  // namespace
 
 BatchResources::BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
-                               bool timestamps)
+                               const PipelineSet& passes, bool timestamps)
     : device_(&device),
       layout_(&layout),
+      pipelines_(&passes),
       submission_(device),
-      timestamps_(device, max_passes, timestamps),
+      timestamps_(device, 0, timestamps),
       mesh_(device, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Direction::upload, "nearfield mesh"),
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload, "nearfield input"),
       read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                  gpu::Direction::readback, "nearfield read-back"),
       words_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
              gpu::Direction::none, "nearfield resident words"),
-      resident_(device, layout) {
+      resident_(device, layout),
+      updates_(device) {
     make_room_for(1);
 }
 
@@ -78,11 +70,8 @@ BatchResources::~BatchResources() {
 }
 
 void BatchResources::make_room_for(std::size_t tile_batches) {
-    while (sets_.size() < tile_batches) {
-        sets_.emplace_back(*device_, *layout_);
-    }
+    bound_.resize(std::max(bound_.size(), tile_batches));
     compute_.resize(std::max(compute_.size(), tile_batches));
-    timestamps_.reserve(static_cast<std::uint32_t>(tile_batches) * max_passes);
 }
 
 std::uint64_t BatchResources::align(std::uint64_t offset) const {
@@ -96,11 +85,8 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     make_room_for(tile_batches.size());
     is_searching_ = false;
     has_resident_outputs_ = !resident.empty();
-    passes_ = static_cast<std::uint32_t>(tile_batches.size()) * max_passes;
     if (has_resident_outputs_) {
-        passes_ += export_passes(resident);
-        timestamps_.reserve(passes_);
-        resident_.upload(resident);
+        resident_.upload(resident, pipelines_->exports());
     }
     tile_batches_.resize(tile_batches.size());
     std::uint64_t mesh_end = 0;
@@ -173,15 +159,10 @@ passes::RecordContext BatchResources::record_context(std::uint32_t number) const
     const TileBatchOnDevice& on_device = tile_batches_[number];
     const bool by_compute = on_device.batch->by_compute;
     return {.batch = *on_device.batch,
-            .sets = sets_[number].sets(),
             .mesh = mesh_.handle(),
             .mesh_offset = on_device.input.meshes,
             .tile_mesh_offset = on_device.input.tile_meshes,
-            .scratch = by_compute ? compute_[number]->scratch() : VK_NULL_HANDLE,
             .shape_units = by_compute ? compute_[number]->shape_units() : 0,
-            .crowd = by_compute ? compute_[number]->crowd() : VK_NULL_HANDLE,
-            .read_back = read_back_.handle(),
-            .summaries_offset = on_device.output.summaries,
             .sample_capacity = on_device.sample_capacity};
 }
 

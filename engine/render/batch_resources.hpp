@@ -4,19 +4,20 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/graph/bound_resources.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/compiled_graph.hpp>
 #include <engine/render/compute_buffers.hpp>
 #include <engine/render/given_search.hpp>
+#include <engine/render/pipeline_set.hpp>
 #include <engine/render/resident_buffers.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/compute_sets.hpp>
-#include <passes/copy_back.hpp>
 #include <passes/record_context.hpp>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,14 +55,15 @@ struct TileBatchOnDevice {
 };
 
 /// The device's side of one batch in flight: everything that the host must not touch before the
-/// device is done with it. Holds all tile batches of the batch, each with descriptor sets of its
-/// own and parts of the common buffers. Pipelines, compiled graphs and their images belong to the
-/// Renderer and are shared by all batches in flight. Keeps its memory; in the steady state nothing
-/// is created.
+/// device is done with it. Holds all tile batches of the batch, each with resources of its own,
+/// which its passes bind, and parts of the common buffers. Pipelines, compiled graphs and their
+/// images belong to the Renderer and are shared by all batches in flight. Keeps its memory; in the
+/// steady state nothing is created.
 class BatchResources {
 public:
-    /// `views`: of images of the host; must outlive this. `timestamps`: the passes are timed.
-    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout, bool timestamps);
+    /// The passes must outlive this. `timestamps`: they are timed.
+    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
+                   const PipelineSet& passes, bool timestamps);
     /// Waits for its own submission if the device is still working on it. Waiting for commands
     /// recorded for the host is up to the host.
     ~BatchResources();
@@ -76,7 +78,7 @@ public:
     void run(std::uint32_t count);
     void run_those_without_room();
     [[nodiscard]] std::span<const std::uint32_t> running() const { return running_; }
-    /// Lays out the outputs of the selected tile batches and points their descriptor sets to them.
+    /// Lays out the outputs of the selected tile batches and binds what their passes use.
     void lay_out_output();
 
     /// Uploads the pairs that are searched, after the tile batches; see GivenSearch::upload().
@@ -95,16 +97,17 @@ public:
     }
     /// What the passes of a tile batch are recorded from, once its output is laid out.
     [[nodiscard]] passes::RecordContext record_context(std::uint32_t number) const;
-    /// Points a compiled graph to the buffers of a tile batch, for what is recorded next.
-    void bind_buffers(CompiledGraph& graph, std::uint32_t number) const;
+    /// The resources of a tile batch.
+    [[nodiscard]] const graph::BoundResources& bound(std::uint32_t number) const {
+        return *bound_[number].current;
+    }
 
     /// The resident outputs; their commands are part of a batch's first submission.
     [[nodiscard]] const ResidentBuffers& resident() const { return resident_; }
     [[nodiscard]] bool has_resident_outputs() const { return has_resident_outputs_; }
     /// The ranges of the device's words that the host reads as well.
-    [[nodiscard]] passes::CopyBack::Item copy_back() const {
-        return {words_.handle(), read_back_.handle(), copies_};
-    }
+    [[nodiscard]] std::span<const VkBufferCopy> copies() const { return copies_; }
+    [[nodiscard]] const graph::BoundResources& bound_copies() const { return *bound_copies_; }
 
     /// The command buffer, empty.
     [[nodiscard]] VkCommandBuffer begin();
@@ -143,20 +146,23 @@ private:
     void empty_output(const TileBatchOnDevice& on_device) const;
     void find_copies(const TileBatchOnDevice& on_device);
     void lay_out_words(std::uint64_t end);
-    [[nodiscard]] BufferPart hits_of(std::uint32_t number) const;
+    void reserve_timestamps();
+    [[nodiscard]] gpu::BufferPart hits_of(std::uint32_t number) const;
     void bind_export();
+    void bind_copies();
     /// The buffer into which a tile batch writes the words of its points and fields.
-    [[nodiscard]] VkBuffer words_of(const TileBatchOnDevice& on_device) const;
-    void bind(std::uint32_t number) const;
-    void bind_compute(std::uint32_t number) const;
+    [[nodiscard]] const gpu::MappedBuffer& words_of(const TileBatchOnDevice& on_device) const;
+    void bind(std::uint32_t number);
+    void bind_input(const TileBatchOnDevice& on_device, graph::BoundResources& resources) const;
     [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
     void require_stamp();
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
+    const PipelineSet* pipelines_;
     gpu::Submission submission_;
     gpu::Timestamps timestamps_;
-    std::uint32_t passes_ = 0;  // of the tile batches and their exports, at most
+    std::uint32_t passes_ = 0;  // of the tile batches and their exports
     gpu::MappedBuffer mesh_;
     gpu::MappedBuffer input_;
     gpu::MappedBuffer read_back_;
@@ -167,7 +173,22 @@ private:
     bool has_resident_outputs_ = false;
     std::vector<VkBufferCopy> copies_;
     std::vector<ResidentBuffers::Words> export_words_;  // by tile batch
-    std::vector<passes::ComputeSets> sets_;             // by tile batch
+    /// The resources of a tile batch, one for each graph that it was last executed with and that
+    /// there still is, so that kinds of batches can alternate.
+    struct Bound {
+        struct WithGraph {
+            std::weak_ptr<const CompiledGraph> graph;
+            std::unique_ptr<graph::BoundResources> resources;
+        };
+        std::vector<WithGraph> all;
+        graph::BoundResources* current = nullptr;
+
+        [[nodiscard]] graph::BoundResources& use(const std::shared_ptr<CompiledGraph>& graph,
+                                                 const passes::ComputeLayout& layout);
+    };
+    std::vector<Bound> bound_;  // by tile batch
+    std::optional<graph::BoundResources> bound_copies_;
+    graph::DescriptorUpdates updates_;
     /// By tile batch; null for those that never used the compute technique. Each has scratch memory
     /// of its own, since no barrier separates the tile batches of a submission.
     std::vector<std::unique_ptr<ComputeBuffers>> compute_;

@@ -36,14 +36,14 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
                      "nearfield long searches") {}
 
 template <class... Vectors>
-BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
+gpu::BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
     const std::uint64_t step =
         std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_part);
-    BufferPart part{input_.handle(), (end_ + step - 1) / step * step, (bytes_of(vectors) + ...)};
-    require_range(*device_, part.bytes, what);
+    const std::uint64_t bytes = (bytes_of(vectors) + ...);
+    require_range(*device_, bytes, what);
+    const gpu::BufferPart part = input_.part((end_ + step - 1) / step * step, bytes);
     std::byte* target = input_.data() + part.offset;
     copy_to(target, vectors...);
-    part.bytes = std::max(part.bytes, smallest_part);
     end_ = part.offset + part.bytes;
     return part;
 }
@@ -62,8 +62,8 @@ void ComputeBuffers::upload(const plan::TileBatch& batch) {
     end_ = 0;
     tiles_ = append("the tiles", batch.tiles);
     points_ = append("the points", batch.points);
-    geometry_ = append("the edges", batch.lists.geometry());
-    work_ = append("the rows of masks", work.overlaps, work.field_rows);
+    edges_ = append("the edges", batch.lists.geometry());
+    masks_ = append("the rows of masks", work.overlaps, work.field_rows);
     input_.flush();
     shape_bytes_ = 0;
     if (work.shapes != nullptr) {
@@ -112,34 +112,17 @@ bool ComputeBuffers::had_long_searches() const {
     return count > 0;
 }
 
-void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::TileBatchSets& sets,
-                          const Output& output) const {
-    using Layout = passes::ComputeLayout;
-    const auto write = [&](VkDescriptorSet set, Layout::Binding binding, const BufferPart& part) {
-        layout.write_buffer(set, binding, part.buffer, part.offset,
-                            std::max(part.bytes, smallest_part));
-    };
-    const BufferPart scratch = scratch_part();
-    write(sets.points_by_lists, Layout::tiles, tiles_);
-    write(sets.points_by_lists, Layout::geometry, geometry_);
-    write(sets.points_by_lists, Layout::points, points_);
-    write(sets.points_by_lists, Layout::output, output.points);
-    write(sets.masks, Layout::work, work_);
-    write(sets.masks, Layout::scratch_of_masks, scratch);
-    write(sets.masks, Layout::summaries, output.summaries);
-    write(sets.masks, Layout::output, output.samples);
-    if (shape_bytes_ > 0) {
-        const auto write_shapes = [&](VkDescriptorSet set) {
-            write(set, Layout::shapes, {shapes_.handle(), 0, shape_bytes_});
-            write(set, Layout::scratch_of_fields, scratch);
-            write(set, Layout::output, output.field);
-            layout.write_texels(set, Layout::texels, texels_.get());
-        };
-        write_shapes(sets.fields);
-        write(sets.fields, Layout::crowd, {crowd_.handle(), 0, smallest_part});
-        write_shapes(sets.places);
-        write(sets.places, Layout::long_searches, {long_searches_.handle(), 0, smallest_part});
-    }
+void ComputeBuffers::bind(const TileHandles& handles, graph::BoundResources& resources) const {
+    resources.set(handles.input, tiles_, passes::input_parts::tiles);
+    resources.set(handles.input, edges_, passes::input_parts::edges);
+    resources.set(handles.input, points_, passes::input_parts::points);
+    resources.set(handles.input, masks_, passes::input_parts::masks);
+    resources.set(handles.scratch, scratch());
+    gpu::BufferPart shapes = shapes_.part(0, shape_bytes_);
+    shapes.texels = texels_.get();
+    resources.set(handles.shapes, shapes);
+    resources.set(handles.crowd, crowd_.part(0, smallest_part));
+    resources.set(handles.long_searches, long_searches_.part(0, smallest_part));
 }
 
 }  // namespace nearfield::render

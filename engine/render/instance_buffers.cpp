@@ -66,12 +66,4 @@ std::uint64_t InstanceBuffers::instance_bytes() const {
     return bytes_of_instances(room_);
 }
 
-void InstanceBuffers::write_bindings(const passes::ComputeLayout& layout,
-                                     VkDescriptorSet set) const {
-    using Layout = passes::ComputeLayout;
-    layout.write_buffer(set, Layout::shapes, shapes_.handle(), 0, shapes_.bytes());
-    layout.write_texels(set, Layout::texels, shapes_.texels());
-    layout.write_buffer(set, Layout::points, instances(), 0, instance_bytes());
-}
-
 }  // namespace nearfield::render

@@ -4,7 +4,6 @@
 #include <engine/gpu/device.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/render/search_memory.hpp>
-#include <passes/compute_layout.hpp>
 
 #include <shaders/pairs.h>
 
@@ -42,9 +41,11 @@ public:
     [[nodiscard]] const ShapeBuffer& shapes() const { return shapes_; }
     [[nodiscard]] VkBuffer instances() const { return instances_.handle(); }
     [[nodiscard]] std::uint64_t instance_bytes() const;
-    /// Lets the bindings `shapes`, with their texels, and `points` of a set be the shapes and the
-    /// instances.
-    void write_bindings(const passes::ComputeLayout& layout, VkDescriptorSet set) const;
+    /// What passes bind.
+    [[nodiscard]] gpu::BufferPart shape_part() const { return shapes_.part(); }
+    [[nodiscard]] gpu::BufferPart instance_part() const {
+        return instances_.part(0, instance_bytes());
+    }
 
 private:
     ShapeBuffer shapes_;

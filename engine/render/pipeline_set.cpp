@@ -33,12 +33,11 @@ RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::Comput
       intersect(device, draw_layout_.get(), strategies_, early_out),
       resolve_points(device, layout, passes::ResolvePoints::Source::images),
       resolve_field(device, layout),
-      resolve_field_points(device, layout),
-      collect_gradients(device, layout),
       collect(device, layout) {}
 
 ExportPipelines::ExportPipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
-    : field(device, layout),
+    : copy_back(device),
+      field(device, layout),
       records(device, layout),
       samples(device, layout),
       headers(device, layout) {}

@@ -4,16 +4,12 @@
 #include <engine/gpu/device.hpp>
 #include <nearfield/context.hpp>
 #include <passes/collect.hpp>
-#include <passes/collect_gradients.hpp>
 #include <passes/color_fill.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/cone_mesh.hpp>
 #include <passes/early_out.hpp>
-#include <passes/export_field.hpp>
-#include <passes/export_headers.hpp>
 #include <passes/export_pairs.hpp>
-#include <passes/export_records.hpp>
-#include <passes/export_samples.hpp>
+#include <passes/exports.hpp>
 #include <passes/feature_bit.hpp>
 #include <passes/fields.hpp>
 #include <passes/fill.hpp>
@@ -24,7 +20,6 @@
 #include <passes/pair_poses.hpp>
 #include <passes/pair_search.hpp>
 #include <passes/resolve_field.hpp>
-#include <passes/resolve_field_points.hpp>
 #include <passes/resolve_points.hpp>
 #include <passes/search_shaders.hpp>
 #include <passes/stencil_pipelines.hpp>
@@ -61,15 +56,14 @@ public:
     passes::Intersect intersect;
     passes::ResolvePoints resolve_points;
     passes::ResolveField resolve_field;
-    passes::ResolveFieldPoints resolve_field_points;
-    passes::CollectGradients collect_gradients;
     passes::Collect collect;
 };
 
-/// The passes that write resident outputs, with their pipelines.
+/// The passes of resident outputs, with their pipelines.
 struct ExportPipelines {
     ExportPipelines(const gpu::Device& device, const passes::ComputeLayout& layout);
 
+    passes::CopyBack copy_back;
     passes::ExportField field;
     passes::ExportRecords records;
     passes::ExportSamples samples;

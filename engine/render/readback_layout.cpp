@@ -34,23 +34,40 @@ void BatchResources::lay_out_output() {
     std::memset(read_back_.data() + stamp_offset_, 0, sizeof(stamp_));
     copies_.clear();
     lay_out_words(end);
-    layout_->begin_updates();
+    updates_.begin();
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
         find_copies(on_device);
         empty_output(on_device);
         if (on_device.batch->by_compute) {
             compute_[number]->empty_crowd();
-            bind_compute(number);
-        } else {
-            bind(number);
         }
+        bind(number);
     }
     read_back_.flush();
+    if (!copies_.empty()) {
+        bind_copies();
+    }
     if (has_resident_outputs_) {
         bind_export();
     }
-    layout_->end_updates();
+    updates_.end();
+    reserve_timestamps();
+}
+
+void BatchResources::reserve_timestamps() {
+    std::size_t passes = 0;
+    for (const std::uint32_t number : running_) {
+        passes += tile_batches_[number].graph->graph().passes().size();
+    }
+    if (!copies_.empty()) {
+        passes += pipelines_->exports().copy_back.graph.passes().size();
+    }
+    if (has_resident_outputs_) {
+        passes += resident_.count_passes(pipelines_->exports());
+    }
+    passes_ = static_cast<std::uint32_t>(passes);
+    timestamps_.reserve(passes_);
 }
 
 /// `end`: of the tile batches' parts of the read-back.
@@ -71,18 +88,18 @@ void BatchResources::lay_out_words(std::uint64_t end) {
     }
 }
 
-BufferPart BatchResources::hits_of(std::uint32_t number) const {
+gpu::BufferPart BatchResources::hits_of(std::uint32_t number) const {
     const TileBatchOnDevice& on_device = tile_batches_[number];
     const plan::TileBatch& batch = *on_device.batch;
     if (batch.by_compute) {
-        return compute_[number]->scratch_part();
+        return compute_[number]->scratch();
     }
-    return {words_.handle(), on_device.output.hits,
-            std::max(std::uint64_t{batch.raster.hit_words} * sizeof(std::uint32_t), smallest_part)};
+    return words_.part(on_device.output.hits,
+                       std::uint64_t{batch.raster.hit_words} * sizeof(std::uint32_t));
 }
 
-VkBuffer BatchResources::words_of(const TileBatchOnDevice& on_device) const {
-    return on_device.batch->resident ? words_.handle() : read_back_.handle();
+const gpu::MappedBuffer& BatchResources::words_of(const TileBatchOnDevice& on_device) const {
+    return on_device.batch->resident ? words_ : read_back_;
 }
 
 void BatchResources::find_copies(const TileBatchOnDevice& on_device) {
@@ -106,15 +123,14 @@ void BatchResources::bind_export() {
     for (std::uint32_t number = 0; number < tile_batches_.size(); ++number) {
         const TileBatchOnDevice& on_device = tile_batches_[number];
         const OutputParts& parts = on_device.output;
-        const VkBuffer buffer = words_of(on_device);
-        export_words_.push_back(
-            {{buffer, parts.points, parts.field - parts.points},
-             {buffer, parts.field, parts.summaries - parts.field},
-             {read_back_.handle(), parts.summaries, parts.samples - parts.summaries},
-             hits_of(number),
-             static_cast<std::uint32_t>(on_device.batch->points.size())});
+        const gpu::MappedBuffer& words = words_of(on_device);
+        export_words_.push_back({words.part(parts.points, parts.field - parts.points),
+                                 words.part(parts.field, parts.summaries - parts.field),
+                                 read_back_.part(parts.summaries, parts.samples - parts.summaries),
+                                 hits_of(number),
+                                 static_cast<std::uint32_t>(on_device.batch->points.size())});
     }
-    resident_.bind(export_words_, {words_.handle(), 0, smallest_part}, read_back_.handle());
+    resident_.bind(export_words_, words_.part(0, smallest_part), pipelines_->exports(), updates_);
 }
 
 void BatchResources::empty_output(const TileBatchOnDevice& on_device) const {
@@ -126,87 +142,67 @@ void BatchResources::empty_output(const TileBatchOnDevice& on_device) const {
     }
 }
 
-void BatchResources::bind(std::uint32_t number) const {
-    using Layout = passes::ComputeLayout;
-    const TileBatchOnDevice& on_device = tile_batches_[number];
-    const plan::TileBatch& batch = *on_device.batch;
-    const passes::TileBatchSets& sets = sets_[number].sets();
-    const InputParts& input = on_device.input;
-    const OutputParts& output = on_device.output;
-    const GraphKey needs = on_device.graph->needs();
-    // Vulkan forbids an empty range; a pass without work reads nothing.
-    const auto write = [&](VkDescriptorSet set, Layout::Binding binding, VkBuffer buffer,
-                           std::uint64_t from, std::uint64_t to) {
-        layout_->write_buffer(set, binding, buffer, from, std::max(to - from, smallest_part));
-    };
-    const auto write_tiles = [&](VkDescriptorSet set) {
-        write(set, Layout::tiles, input_.handle(), input.tiles, input.groups_end);
-        write(set, Layout::geometry, input_.handle(), input.geometry,
-              input.geometry + bytes_of(batch.lists.geometry()));
-    };
-    if (needs.points) {
-        write_tiles(sets.points);
-        write(sets.points, Layout::points, input_.handle(), input.points, input.field_points);
-        write(sets.points, Layout::output, words_of(on_device), output.points, output.field);
+void BatchResources::bind_copies() {
+    const passes::CopyBack& copy_back = pipelines_->exports().copy_back;
+    if (!bound_copies_) {
+        bound_copies_.emplace(copy_back.graph.make_resources(*layout_));
     }
-    const auto write_field = [&](VkDescriptorSet set) {
-        write_tiles(set);
-        write(set, Layout::points, input_.handle(), input.field_points, input.end);
-        write(set, Layout::output, words_of(on_device), output.field, output.summaries);
-    };
-    for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
-        if (needs.field[encoding]) {
-            write_field(sets.field[encoding]);
-        }
-    }
-    if (needs.blended) {
-        write_field(sets.gradients);
-    }
-    for (std::size_t i = 0; i < intersection_strategies; ++i) {
-        if (needs.overlap[i]) {
-            write_tiles(sets.samples[i]);
-            write(sets.samples[i], Layout::summaries, read_back_.handle(), output.summaries,
-                  output.samples);
-            write(sets.samples[i], Layout::output, read_back_.handle(), output.samples, output.end);
-            if (batch.raster.hit_words > 0) {
-                write(sets.samples[i], Layout::kept_hits, words_.handle(), output.hits,
-                      output.hits + batch.raster.hit_words * sizeof(std::uint32_t));
-            }
-        }
-    }
-    on_device.graph->bind_images(*layout_, sets);
+    bound_copies_->set(copy_back.words, words_.part(0, words_.capacity()));
+    bound_copies_->set(copy_back.read_back, read_back_.part(0, read_back_.capacity()));
 }
 
-void BatchResources::bind_compute(std::uint32_t number) const {
-    const TileBatchOnDevice& on_device = tile_batches_[number];
-    const OutputParts& parts = on_device.output;
-    const VkBuffer words = words_of(on_device);
-    const VkBuffer read_back = read_back_.handle();
-    compute_[number]->bind(*layout_, sets_[number].sets(),
-                           {{words, parts.points, parts.field - parts.points},
-                            {words, parts.field, parts.summaries - parts.field},
-                            {read_back, parts.summaries, parts.samples - parts.summaries},
-                            {read_back, parts.samples, parts.end - parts.samples}});
-}
-
-void BatchResources::bind_buffers(CompiledGraph& graph, std::uint32_t number) const {
-    const VkBuffer words = words_of(tile_batches_[number]);
-    if (tile_batches_[number].batch->by_compute) {
-        const ComputeBuffers& compute = *compute_[number];
-        graph.set_buffers({.input = compute.input(),
-                           .scratch = compute.scratch(),
-                           .shapes = compute.shapes(),
-                           .crowd = compute.crowd(),
-                           .long_searches = compute.long_searches(),
-                           .words = words,
-                           .read_back = read_back_.handle()});
+graph::BoundResources& BatchResources::Bound::use(const std::shared_ptr<CompiledGraph>& graph,
+                                                  const passes::ComputeLayout& layout) {
+    current = nullptr;
+    std::erase_if(all, [](const WithGraph& one) { return one.graph.expired(); });
+    const auto found = std::find_if(all.begin(), all.end(), [&graph](const WithGraph& one) {
+        return one.graph.lock() == graph;
+    });
+    if (found == all.end()) {
+        all.push_back({graph, std::make_unique<graph::BoundResources>(
+                                  graph->graph().make_resources(layout))});
+        current = all.back().resources.get();
     } else {
-        graph.set_buffers({.mesh = mesh_.handle(),
-                           .input = input_.handle(),
-                           .words = words,
-                           .hits = words_.handle(),
-                           .read_back = read_back_.handle()});
+        current = found->resources.get();
     }
+    return *current;
+}
+
+void BatchResources::bind(std::uint32_t number) {
+    const TileBatchOnDevice& on_device = tile_batches_[number];
+    const OutputParts& output = on_device.output;
+    const TileHandles& handles = on_device.graph->handles();
+    graph::BoundResources& resources = bound_[number].use(on_device.graph, *layout_);
+    if (on_device.batch->by_compute) {
+        compute_[number]->bind(handles, resources);
+    } else {
+        bind_input(on_device, resources);
+        resources.set(handles.kept_hits, hits_of(number));
+    }
+    const gpu::MappedBuffer& words = words_of(on_device);
+    resources.set(handles.results, words.part(output.points, output.field - output.points));
+    resources.set(handles.field, words.part(output.field, output.summaries - output.field));
+    resources.set(handles.samples,
+                  read_back_.part(output.summaries, output.samples - output.summaries),
+                  passes::sample_parts::summaries);
+    resources.set(handles.samples, read_back_.part(output.samples, output.end - output.samples),
+                  passes::sample_parts::samples);
+    updates_.add(resources);
+}
+
+void BatchResources::bind_input(const TileBatchOnDevice& on_device,
+                                graph::BoundResources& resources) const {
+    const InputParts& input = on_device.input;
+    const TileHandles& handles = on_device.graph->handles();
+    const auto set = [&](std::uint32_t part, std::uint64_t from, std::uint64_t to) {
+        resources.set(handles.input, input_.part(from, to - from), part);
+    };
+    set(passes::input_parts::tiles, input.tiles, input.groups_end);
+    set(passes::input_parts::edges, input.geometry,
+        input.geometry + bytes_of(on_device.batch->lists.geometry()));
+    set(passes::input_parts::points, input.points, input.field_points);
+    set(passes::input_parts::field_points, input.field_points, input.end);
+    resources.set(handles.mesh, mesh_.part(0, mesh_.capacity()));
 }
 
 }  // namespace nearfield::render

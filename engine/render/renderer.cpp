@@ -53,8 +53,7 @@ Renderer::Renderer(const gpu::Device& device, const Settings& settings)
     : device_(&device),
       timestamps_(settings.timestamps),
       layout_(device),
-      passes_(device, layout_),
-      copy_back_(device) {
+      passes_(device, layout_) {
     if (!settings.pipelines_on_demand) {
         passes_.make(settings.techniques);
     }
@@ -65,7 +64,7 @@ const char* Renderer::gradient_format() const {
 }
 
 std::unique_ptr<BatchResources> Renderer::make_resources() {
-    return std::make_unique<BatchResources>(*device_, layout_, timestamps_);
+    return std::make_unique<BatchResources>(*device_, layout_, passes_, timestamps_);
 }
 
 std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQuestion& question) {
@@ -75,8 +74,8 @@ std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQ
 
 std::unique_ptr<WorldQueryBuffers> Renderer::make_world_query_buffers(
     plan::WorldQuestion question) {
-    static_cast<void>(passes_.world_queries(question));
-    return std::make_unique<WorldQueryBuffers>(*device_, layout_, question, timestamps_);
+    return std::make_unique<WorldQueryBuffers>(*device_, layout_, passes_.world_queries(question),
+                                               question, timestamps_);
 }
 
 /// Batches in flight share ownership of the graph they use, so it may be replaced here.
@@ -202,8 +201,7 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
         if (!context.batch.by_compute) {
             passes_.raster().early_out.reset(commands, context);
         }
-        slot.bind_buffers(*on_device.graph, number);
-        on_device.graph->execute(commands, slot.timestamps(), context);
+        on_device.graph->graph().execute(commands, slot.timestamps(), slot.bound(number), context);
     }
     if (const GivenSearch* const search = slot.running_search()) {
         search->record(commands, slot.timestamps(), passes_.pair_search(plan::given_pairs));
@@ -212,23 +210,12 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
 }
 
 void Renderer::record_exports(BatchResources& slot, VkCommandBuffer commands) {
-    const passes::CopyBack::Item copies = slot.copy_back();
-    if (!copies.ranges.empty()) {
-        copy_back_.record(commands, slot.timestamps(), copies);
+    if (!slot.copies().empty()) {
+        passes_.exports().copy_back.graph.execute(commands, slot.timestamps(), slot.bound_copies(),
+                                                  slot.copies());
     }
     if (slot.has_resident_outputs()) {
-        const ResidentBuffers& resident = slot.resident();
-        const ExportPipelines& exports = passes_.exports();
-        for (std::size_t i = 0; i < resident.resident().fields.size(); ++i) {
-            exports.field.record(commands, slot.timestamps(), resident.field_item(i));
-        }
-        for (std::size_t i = 0; i < resident.resident().records.size(); ++i) {
-            exports.records.record(commands, slot.timestamps(), resident.records_item(i));
-        }
-        for (std::size_t i = 0; i < resident.resident().samples.size(); ++i) {
-            exports.samples.record(commands, slot.timestamps(), resident.samples_item(i));
-        }
-        exports.headers.record(commands, slot.timestamps(), resident.headers_item());
+        slot.resident().record(passes_.exports(), commands, slot.timestamps());
     }
 }
 
@@ -260,7 +247,7 @@ std::string Renderer::print(GraphFormat format) const {
         text += graph.print(format, title);
     };
     if (last_question_) {
-        add(world_queries(*last_question_), "questions about a world");
+        add(passes_.world_queries(*last_question_).graph, "questions about a world");
         return text;
     }
     if (last_pairs_) {
@@ -274,22 +261,22 @@ std::string Renderer::print(GraphFormat format) const {
         return text;
     }
     if (last_graph_ != nullptr) {
-        add(*last_graph_, "tiles");
+        add(last_graph_->graph(), "tiles");
     }
     if (last_had_search_) {
         add(pair_search(plan::given_pairs), "search for points");
     }
     if (last_had_fields_) {
-        add(passes_.exports().field, "resident fields");
+        add(passes_.exports().field.graph, "resident fields");
     }
     if (last_had_records_) {
-        add(passes_.exports().records, "resident records");
+        add(passes_.exports().records.graph, "resident records");
     }
     if (last_had_samples_) {
-        add(passes_.exports().samples, "resident samples");
+        add(passes_.exports().samples.graph, "resident samples");
     }
     if (last_had_fields_ || last_had_records_ || last_had_samples_) {
-        add(passes_.exports().headers, "resident headers");
+        add(passes_.exports().headers.graph, "resident headers");
     }
     return text;
 }

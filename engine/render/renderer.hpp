@@ -10,7 +10,6 @@
 #include <engine/render/world_query_buffers.hpp>
 #include <nearfield/context.hpp>
 #include <nearfield/result.hpp>
-#include <passes/copy_back.hpp>
 
 #include <array>
 #include <cstddef>
@@ -59,12 +58,9 @@ public:
         last_question_.reset();
         last_pairs_ = {kind, takes_poses, is_resident};
     }
-    /// Memory for many questions about a world, likewise; their passes; and that they are recorded.
+    /// Memory for many questions about a world, likewise; and says that they are recorded.
     [[nodiscard]] std::unique_ptr<WorldQueryBuffers> make_world_query_buffers(
         plan::WorldQuestion question);
-    [[nodiscard]] const passes::WorldQueries& world_queries(plan::WorldQuestion question) const {
-        return passes_.world_queries(question);
-    }
     void note_world_queries(plan::WorldQuestion question) {
         last_pairs_.reset();
         last_question_ = question;
@@ -118,7 +114,6 @@ private:
     bool timestamps_;
     passes::ComputeLayout layout_;
     PipelineSet passes_;
-    passes::CopyBack copy_back_;
     std::vector<std::shared_ptr<CompiledGraph>> graphs_;
     std::shared_ptr<const CompiledGraph> last_graph_;
     bool last_had_fields_ = false;  // among the resident outputs of the last batch

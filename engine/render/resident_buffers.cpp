@@ -3,17 +3,12 @@
 #include <engine/render/resident_buffers.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <string>
 #include <utility>
 
 namespace nearfield::render {
 namespace {
-
-using Layout = passes::ComputeLayout;
-
-constexpr std::array<const char*, 1> set_names{"nearfield export set"};
 
 std::uint64_t bytes_of_records(const plan::RecordsOutput& records) {
     return sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(RecordData);
@@ -39,11 +34,13 @@ std::uint64_t bytes_of_blocks(const plan::SamplesOutput& samples) {
            sizeof(std::uint32_t);
 }
 
-/// Removes the first `count` of the remaining sets and returns them.
-std::span<const VkDescriptorSet> take(std::span<const VkDescriptorSet>& sets, std::size_t count) {
-    const std::span<const VkDescriptorSet> taken = sets.first(count);
-    sets = sets.subspan(count);
-    return taken;
+/// Makes sure that there are so many resources of a graph.
+template <class Graph>
+void reserve(std::vector<graph::BoundResources>& bound, std::size_t count, const Graph& graph,
+             const passes::ComputeLayout& layout) {
+    while (bound.size() < count) {
+        bound.push_back(graph.make_resources(layout));
+    }
 }
 
 }  // namespace
@@ -58,13 +55,13 @@ ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::Comput
                    VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
                gpu::Direction::none, "nearfield resident records", device.resident_families()) {}
 
-void ResidentBuffers::upload(const plan::ResidentOutputs& resident) {
+void ResidentBuffers::upload(const plan::ResidentOutputs& resident, const ExportPipelines& passes) {
     resident_ = &resident;
     reserve_images();
     find_views();
     lay_out_buffer();
     upload_tables();
-    make_sets();
+    make_resources(passes);
 }
 
 void ResidentBuffers::reserve_images() {
@@ -169,66 +166,60 @@ void ResidentBuffers::upload_tables() {
     tables_.flush();
 }
 
-void ResidentBuffers::make_sets() {
-    sets_.clear();
-    append_sets(resident_->field_parts.size(), sets_of_images_);
-    append_sets(resident_->point_runs.size() + resident_->records.size() +
-                    2 * resident_->sample_runs.size() + resident_->samples.size(),
-                sets_of_buffers_);
-    append_sets(resident_->fields.size() + resident_->records.size() + resident_->samples.size(),
-                sets_of_headers_);
-}
-
-void ResidentBuffers::append_sets(std::size_t count, std::vector<passes::DescriptorSets>& own) {
-    while (own.size() < count) {
-        own.emplace_back(*device_, *layout_, set_names);
+void ResidentBuffers::make_resources(const ExportPipelines& passes) {
+    const std::size_t fields = resident_->fields.size();
+    const std::size_t records = resident_->records.size();
+    const std::size_t samples = resident_->samples.size();
+    bound_fields_.resize(std::max(bound_fields_.size(), fields));
+    for (std::size_t i = 0; i < fields; ++i) {
+        reserve(bound_fields_[i], resident_->fields[i].part_count, passes.field.graph, *layout_);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        sets_.push_back(own[i][0]);
+    bound_records_.resize(std::max(bound_records_.size(), records));
+    for (std::size_t i = 0; i < records; ++i) {
+        reserve(bound_records_[i], std::max(resident_->records[i].run_count, 1U),
+                passes.records.graph, *layout_);
     }
+    bound_samples_.resize(std::max(bound_samples_.size(), samples));
+    for (std::size_t i = 0; i < samples; ++i) {
+        reserve(bound_samples_[i], std::max(resident_->samples[i].run_count, 1U),
+                passes.samples.graph, *layout_);
+    }
+    reserve(bound_headers_, fields + records + samples, passes.headers.graph, *layout_);
 }
 
-void ResidentBuffers::bind_words(VkDescriptorSet set, const BufferPart& words) const {
-    layout_->write_buffer(set, Layout::words, words.buffer, words.offset,
-                          std::max(words.bytes, smallest_part));
-    layout_->write_buffer(set, Layout::tables, tables_.handle(), 0,
-                          std::max(bytes_of(resident_->tables), smallest_part));
+gpu::BufferPart ResidentBuffers::own_range(const Place& place, std::uint64_t bytes) const {
+    gpu::BufferPart range = records_.part(place.records, bytes);
+    range.bytes = bytes;
+    return range;
 }
 
-BufferPart ResidentBuffers::range_of(std::size_t i, const plan::RecordsOutput& records) const {
-    return range_of_target(records.target,
-                           {records_.handle(), places_[i].records, bytes_of_records(records)});
+gpu::BufferPart ResidentBuffers::range_of(std::size_t i, const plan::RecordsOutput& records) const {
+    return range_of_target(records.target, own_range(places_[i], bytes_of_records(records)));
 }
 
-BufferPart ResidentBuffers::range_of(std::size_t i, const plan::SamplesOutput& samples) const {
-    return range_of_target(
-        samples.target, {records_.handle(), sample_places_[i].records, bytes_of_samples(samples)});
+gpu::BufferPart ResidentBuffers::range_of(std::size_t i, const plan::SamplesOutput& samples) const {
+    return range_of_target(samples.target, own_range(sample_places_[i], bytes_of_samples(samples)));
 }
 
-void ResidentBuffers::bind_records(VkDescriptorSet set, const Place& place,
-                                   const BufferPart& range) const {
-    layout_->write_host_buffer(set, Layout::records, range.buffer, range.offset, range.bytes);
-    layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.blocks,
-                          std::max(place.block_bytes, smallest_part));
-}
-
-void ResidentBuffers::bind_headers() {
+void ResidentBuffers::bind_headers(const passes::ExportHeaders& pass,
+                                   graph::DescriptorUpdates& updates) {
     headers_.clear();
-    std::span<const VkDescriptorSet> sets = std::span(sets_).last(
-        resident_->fields.size() + resident_->records.size() + resident_->samples.size());
+    const graph::ExternalUses uses = passes::ExportHeaders::uses(readers_of_targets(*resident_));
     const auto add = [&](const geometry::Vector& origin, double cell, const Place& place,
-                         const BufferPart& summary) -> plan::ExportHeaderPush& {
-        const VkDescriptorSet set = take(sets, 1).front();
-        layout_->write_buffer(set, Layout::records, summary.buffer, summary.offset, smallest_part);
-        layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.header,
-                              sizeof(ResidentHeaderData));
+                         gpu::BufferPart summary) -> plan::ExportHeaderPush& {
+        graph::BoundResources& resources = bound_headers_[headers_.size()];
+        summary.bytes = smallest_part;
+        resources.set(pass.summary, summary);
+        resources.set(pass.headers, records_.part(0, records_.capacity()), uses);
+        resources.set(pass.headers, records_.part(place.header, sizeof(ResidentHeaderData)), 1);
+        updates.add(resources);
         return headers_.emplace_back(
             plan::ExportHeaderPush{{static_cast<float>(origin.x()), static_cast<float>(origin.y())},
                                    static_cast<float>(cell)});
     };
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
         const plan::FieldOutputs& field = resident_->fields[i];
-        const BufferPart unread{records_.handle(), field_places_[i].blocks, smallest_part};
+        const gpu::BufferPart unread = records_.part(field_places_[i].blocks, smallest_part);
         auto& header = add(field.origin, field.cell, field_places_[i], unread);
         header.width = field.width;
         header.height = field.height;
@@ -243,108 +234,127 @@ void ResidentBuffers::bind_headers() {
     }
 }
 
-void ResidentBuffers::bind(std::span<const Words> words, const BufferPart& none,
-                           VkBuffer summaries) {
-    words_ = none.buffer;
-    summaries_ = summaries;
-    std::span<const VkDescriptorSet> sets(sets_);
-    bind_fields(words, sets);
-    bind_points(words, none, sets);
-    bind_samples(words, none, sets);
-    bind_headers();
+void ResidentBuffers::bind(std::span<const Words> words, const gpu::BufferPart& none,
+                           const ExportPipelines& passes, graph::DescriptorUpdates& updates) {
+    bind_fields(words, passes.field, updates);
+    bind_points(words, none, passes.records, updates);
+    bind_samples(words, none, passes.samples, updates);
+    bind_headers(passes.headers, updates);
 }
 
-void ResidentBuffers::bind_fields(std::span<const Words> words,
-                                  std::span<const VkDescriptorSet>& sets) const {
+void ResidentBuffers::bind_fields(std::span<const Words> words, const passes::ExportField& pass,
+                                  graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
         const plan::FieldOutputs& field = resident_->fields[i];
-        std::uint32_t part = field.first_part;
-        for (const VkDescriptorSet set : take(sets, field.part_count)) {
-            bind_words(set, words[resident_->field_parts[part++].tile_batch].field);
-            layout_->write_storage_image(set, Layout::signed_distance_image,
-                                         views_[i].signed_distance);
-            layout_->write_storage_image(set, Layout::feature_id_image, views_[i].feature);
+        for (std::uint32_t part = 0; part < field.part_count; ++part) {
+            const auto& output = resident_->field_parts[field.first_part + part];
+            graph::BoundResources& resources = bound_fields_[i][part];
+            resources.set(pass.words, words[output.tile_batch].field);
+            resources.set(pass.tables, tables());
+            resources.set(
+                pass.signed_distance,
+                imported_image(field.target.signed_distance, images_[i].signed_distance.handle(),
+                               views_[i].signed_distance, revision_));
+            resources.set(pass.feature,
+                          imported_image(field.target.feature, images_[i].feature.handle(),
+                                         views_[i].feature, revision_));
+            updates.add(resources);
         }
     }
 }
 
-void ResidentBuffers::bind_points(std::span<const Words> words, const BufferPart& none,
-                                  std::span<const VkDescriptorSet>& sets) {
+void ResidentBuffers::bind_points(std::span<const Words> words, const gpu::BufferPart& none,
+                                  const passes::ExportRecords& passes,
+                                  graph::DescriptorUpdates& updates) {
     details_.clear();
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
         const plan::RecordsOutput& records = resident_->records[i];
-        std::uint32_t number = records.first_run;
-        for (const VkDescriptorSet set : take(sets, records.run_count)) {
-            const plan::PointRunOutput& run = resident_->point_runs[number++];
-            bind_words(set, words[run.tile_batch].points);
-            bind_records(set, places_[i], range_of(i, records));
-            details_.push_back(words[run.tile_batch].point_count +
-                               plan::words_of_details * run.first);
+        const gpu::BufferPart range = range_of(i, records);
+        const auto bind = [&](std::uint32_t run, const gpu::BufferPart& points) {
+            graph::BoundResources& resources = bound_records_[i][run];
+            resources.set(passes.words, points);
+            resources.set(passes.tables, tables());
+            resources.set(passes.blocks, records_.part(places_[i].blocks, places_[i].block_bytes));
+            resources.set(passes.records, range, uses_of(records.target));
+            updates.add(resources);
+        };
+        for (std::uint32_t run = 0; run < records.run_count; ++run) {
+            const plan::PointRunOutput& output = resident_->point_runs[records.first_run + run];
+            bind(run, words[output.tile_batch].points);
+            details_.push_back(words[output.tile_batch].point_count +
+                               plan::words_of_details * output.first);
         }
-        const VkDescriptorSet last = take(sets, 1).front();
-        bind_words(last, none);
-        bind_records(last, places_[i], range_of(i, records));
+        if (records.run_count == 0) {
+            bind(0, none);
+        }
     }
 }
 
-void ResidentBuffers::bind_samples(std::span<const Words> words, const BufferPart& none,
-                                   std::span<const VkDescriptorSet>& sets) const {
+void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::BufferPart& none,
+                                   const passes::ExportSamples& passes,
+                                   graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
         const plan::SamplesOutput& samples = resident_->samples[i];
-        const auto bind = [&](const BufferPart& part) {
-            const VkDescriptorSet set = take(sets, 1).front();
-            bind_words(set, part);
-            bind_records(set, sample_places_[i], range_of(i, samples));
+        const gpu::BufferPart range = range_of(i, samples);
+        const auto bind = [&](std::uint32_t run, const gpu::BufferPart& summaries,
+                              const gpu::BufferPart& hits) {
+            graph::BoundResources& resources = bound_samples_[i][run];
+            resources.set(passes.summaries, summaries);
+            resources.set(passes.hits, samples.block_count > 0 ? hits : none);
+            resources.set(passes.tables, tables());
+            resources.set(passes.blocks,
+                          records_.part(sample_places_[i].blocks, sample_places_[i].block_bytes));
+            resources.set(passes.samples, range, uses_of(samples.target));
+            updates.add(resources);
         };
-        for (std::uint32_t number = 0; number < samples.run_count; ++number) {
-            const Words& batch =
-                words[resident_->sample_runs[samples.first_run + number].tile_batch];
-            bind(batch.summaries);
-            bind(samples.block_count > 0 ? batch.hits : none);
+        for (std::uint32_t run = 0; run < samples.run_count; ++run) {
+            const Words& of = words[resident_->sample_runs[samples.first_run + run].tile_batch];
+            bind(run, of.summaries, of.hits);
         }
-        bind(none);
+        if (samples.run_count == 0) {
+            bind(0, none, none);
+        }
     }
 }
 
-passes::ExportField::Item ResidentBuffers::field_item(std::size_t i) const {
-    const plan::FieldOutputs& field = resident_->fields[i];
-    return {&field,
-            std::span(resident_->field_parts).subspan(field.first_part, field.part_count),
-            std::span(sets_).subspan(field.first_part, field.part_count),
-            words_,
-            imported_image(field.target.signed_distance, images_[i].signed_distance.handle()),
-            imported_image(field.target.feature, images_[i].feature.handle())};
+std::size_t ResidentBuffers::count_passes(const ExportPipelines& passes) const {
+    return resident_->fields.size() * passes.field.graph.passes().size() +
+           resident_->records.size() * passes.records.graph.passes().size() +
+           resident_->samples.size() * passes.samples.graph.passes().size() +
+           passes.headers.graph.passes().size();
 }
 
-passes::ExportRecords::Item ResidentBuffers::records_item(std::size_t i) const {
-    const plan::RecordsOutput& records = resident_->records[i];
-    const std::size_t first_set = resident_->field_parts.size() + records.first_run + i;
-    return {&records,
-            std::span(resident_->point_runs).subspan(records.first_run, records.run_count),
-            std::span(details_).subspan(records.first_run, records.run_count),
-            std::span(sets_).subspan(first_set, records.run_count + 1),
-            words_,
-            records_.handle(),
-            imported_buffer(records.target, range_of(i, records))};
-}
-
-passes::ExportSamples::Item ResidentBuffers::samples_item(std::size_t i) const {
-    const plan::SamplesOutput& samples = resident_->samples[i];
-    const std::size_t first_set = resident_->field_parts.size() + resident_->point_runs.size() +
-                                  resident_->records.size() + 2 * std::size_t{samples.first_run} +
-                                  i;
-    return {&samples,
-            std::span(resident_->sample_runs).subspan(samples.first_run, samples.run_count),
-            resident_->sample_tiles,
-            std::span(sets_).subspan(first_set, 2 * std::size_t{samples.run_count} + 1),
-            summaries_,
-            records_.handle(),
-            imported_buffer(samples.target, range_of(i, samples))};
-}
-
-passes::ExportHeaders::Item ResidentBuffers::headers_item() const {
-    return {headers_, std::span(sets_).last(headers_.size()), records_.handle(),
-            readers_of_targets(*resident_)};
+void ResidentBuffers::record(const ExportPipelines& passes, VkCommandBuffer commands,
+                             gpu::Timestamps& timestamps) const {
+    const auto execute = [&](const auto& graph, const auto& input) {
+        graph.execute(commands, timestamps, input.resources.front(), input);
+    };
+    for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
+        const plan::FieldOutputs& field = resident_->fields[i];
+        execute(passes.field.graph,
+                passes::ExportField::Input{
+                    &field,
+                    std::span(resident_->field_parts).subspan(field.first_part, field.part_count),
+                    bound_fields_[i]});
+    }
+    for (std::size_t i = 0; i < resident_->records.size(); ++i) {
+        const plan::RecordsOutput& records = resident_->records[i];
+        execute(passes.records.graph,
+                passes::ExportRecords::Input{
+                    &records,
+                    std::span(resident_->point_runs).subspan(records.first_run, records.run_count),
+                    std::span(details_).subspan(records.first_run, records.run_count),
+                    bound_records_[i]});
+    }
+    for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
+        const plan::SamplesOutput& samples = resident_->samples[i];
+        execute(passes.samples.graph,
+                passes::ExportSamples::Input{
+                    &samples,
+                    std::span(resident_->sample_runs).subspan(samples.first_run, samples.run_count),
+                    resident_->sample_tiles, bound_samples_[i]});
+    }
+    execute(passes.headers.graph, passes::ExportHeaders::Input{headers_, bound_headers_});
 }
 
 }  // namespace nearfield::render

@@ -4,18 +4,15 @@
 #include <engine/gpu/buffer_parts.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/image.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/graph/bound_resources.hpp>
 #include <engine/graph/graph.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
-#include <engine/render/compute_buffers.hpp>
+#include <engine/render/pipeline_set.hpp>
 #include <engine/render/resident_targets.hpp>
 #include <nearfield/resident.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/compute_sets.hpp>
-#include <passes/export_field.hpp>
-#include <passes/export_headers.hpp>
-#include <passes/export_records.hpp>
-#include <passes/export_samples.hpp>
 
 #include <cstdint>
 #include <span>
@@ -34,24 +31,22 @@ public:
     /// Allocates memory and uploads the tables. `resident` has to stay unchanged until the next
     /// upload. Must not be called while the device uses these buffers or the host uses the resident
     /// outputs.
-    void upload(const plan::ResidentOutputs& resident);
+    void upload(const plan::ResidentOutputs& resident, const ExportPipelines& passes);
 
     /// Where a tile batch writes the words of its points (with their details) and of its fields,
     /// the summaries of its tiles, and the hits in the cells of intersections.
     struct Words {
-        BufferPart points, field, summaries, hits;
+        gpu::BufferPart points, field, summaries, hits;
         std::uint32_t point_count = 0;
     };
-    /// Points the descriptor sets to the words, by tile batch; `none`: any part of the buffer that
-    /// holds the words of points and fields. `summaries`: the buffer of all summaries.
-    void bind(std::span<const Words> words, const BufferPart& none, VkBuffer summaries);
-
-    [[nodiscard]] const plan::ResidentOutputs& resident() const { return *resident_; }
-    /// What the passes record from; valid after bind().
-    [[nodiscard]] passes::ExportField::Item field_item(std::size_t i) const;
-    [[nodiscard]] passes::ExportRecords::Item records_item(std::size_t i) const;
-    [[nodiscard]] passes::ExportSamples::Item samples_item(std::size_t i) const;
-    [[nodiscard]] passes::ExportHeaders::Item headers_item() const;
+    /// Binds what the passes use, and adds it to the updates: the words, by tile batch; `none`: any
+    /// part of the buffer that holds the words of points and fields.
+    void bind(std::span<const Words> words, const gpu::BufferPart& none,
+              const ExportPipelines& passes, graph::DescriptorUpdates& updates);
+    [[nodiscard]] std::size_t count_passes(const ExportPipelines& passes) const;
+    /// Records the passes, once bound.
+    void record(const ExportPipelines& passes, VkCommandBuffer commands,
+                gpu::Timestamps& timestamps) const;
 
     /// The resident output of the i-th field, records or samples of the batch.
     [[nodiscard]] ResidentField field(std::size_t i) const;
@@ -81,28 +76,30 @@ private:
     void reserve_images();
     void find_views();
     /// Where the summary of records or samples and what follows it lie.
-    [[nodiscard]] BufferPart range_of(std::size_t i, const plan::RecordsOutput& records) const;
-    [[nodiscard]] BufferPart range_of(std::size_t i, const plan::SamplesOutput& samples) const;
+    [[nodiscard]] gpu::BufferPart range_of(std::size_t i, const plan::RecordsOutput& records) const;
+    [[nodiscard]] gpu::BufferPart range_of(std::size_t i, const plan::SamplesOutput& samples) const;
+    [[nodiscard]] gpu::BufferPart own_range(const Place& place, std::uint64_t bytes) const;
     void lay_out_buffer();
     void move_places();
     /// Makes the place of an output as large as it has to be.
     void grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
               std::uint64_t blocks);
-    void bind_headers();
+    void bind_headers(const passes::ExportHeaders& pass, graph::DescriptorUpdates& updates);
     [[nodiscard]] ResidentHeader header_at(const Place& place) const {
         return {records_.handle(), place.header};
     }
     [[nodiscard]] ResidentSlot slot() const { return {0, revision_}; }
     void upload_tables();
-    void make_sets();
-    void append_sets(std::size_t count, std::vector<passes::DescriptorSets>& own);
-    void bind_fields(std::span<const Words> words, std::span<const VkDescriptorSet>& sets) const;
-    void bind_points(std::span<const Words> words, const BufferPart& none,
-                     std::span<const VkDescriptorSet>& sets);
-    void bind_samples(std::span<const Words> words, const BufferPart& none,
-                      std::span<const VkDescriptorSet>& sets) const;
-    void bind_words(VkDescriptorSet set, const BufferPart& words) const;
-    void bind_records(VkDescriptorSet set, const Place& place, const BufferPart& range) const;
+    void make_resources(const ExportPipelines& passes);
+    [[nodiscard]] gpu::BufferPart tables() const {
+        return tables_.part(0, bytes_of(resident_->tables));
+    }
+    void bind_fields(std::span<const Words> words, const passes::ExportField& pass,
+                     graph::DescriptorUpdates& updates);
+    void bind_points(std::span<const Words> words, const gpu::BufferPart& none,
+                     const passes::ExportRecords& passes, graph::DescriptorUpdates& updates);
+    void bind_samples(std::span<const Words> words, const gpu::BufferPart& none,
+                      const passes::ExportSamples& passes, graph::DescriptorUpdates& updates);
     [[nodiscard]] ResidentState state(graph::Access access) const;
     /// The state of records or samples.
     [[nodiscard]] ResidentState state(const ResidentBufferTarget& target) const;
@@ -122,17 +119,12 @@ private:
     std::uint64_t revision_ = 0;                   // see ResidentSlot
     std::vector<std::uint32_t> details_;           // by run of points
     std::vector<plan::ExportHeaderPush> headers_;  // of fields, records, samples
-    // Fields, records and samples each have their own, so that everything that a set was ever bound
-    // to is bound anew with every use: lavapipe reads bindings that no shader uses, and the objects
-    // they refer to may be gone.
-    std::vector<passes::DescriptorSets> sets_of_images_;
-    std::vector<passes::DescriptorSets> sets_of_buffers_;
-    std::vector<passes::DescriptorSets> sets_of_headers_;
-    /// By part of a field; then, for each records output, one per run and one more; then, for each
-    /// samples output, two per run and one more; then one per header.
-    std::vector<VkDescriptorSet> sets_;
-    VkBuffer words_ = VK_NULL_HANDLE;
-    VkBuffer summaries_ = VK_NULL_HANDLE;
+    // What passes bind, and more of it that an earlier batch had.
+    using Bound = std::vector<graph::BoundResources>;
+    std::vector<Bound> bound_fields_;   // by field and part
+    std::vector<Bound> bound_records_;  // by records and run, at least one
+    std::vector<Bound> bound_samples_;  // by samples and run, at least one
+    Bound bound_headers_;               // by header
 };
 
 }  // namespace nearfield::render

@@ -52,7 +52,7 @@ ResidentField ResidentBuffers::field(std::size_t i) const {
 
 ResidentRecords ResidentBuffers::records(std::size_t i) const {
     const plan::RecordsOutput& records = resident_->records[i];
-    const BufferPart range = range_of(i, records);
+    const gpu::BufferPart range = range_of(i, records);
     const std::uint64_t max_size =
         sizeof(SummaryData) + static_cast<std::uint64_t>(records.max_capacity) * sizeof(RecordData);
     return {range.buffer,          range.offset,
@@ -64,7 +64,7 @@ ResidentRecords ResidentBuffers::records(std::size_t i) const {
 
 ResidentSamples ResidentBuffers::samples(std::size_t i) const {
     const plan::SamplesOutput& samples = resident_->samples[i];
-    const BufferPart range = range_of(i, samples);
+    const gpu::BufferPart range = range_of(i, samples);
     return {range.buffer,
             range.offset,
             range.bytes,

@@ -1,3 +1,4 @@
+#include <engine/base/unique_numbers.hpp>
 #include <engine/graph/access.hpp>
 #include <engine/render/resident_targets.hpp>
 
@@ -21,28 +22,34 @@ VkPipelineStageFlags readers_of(const std::vector<Output>& outputs) {
 
 }  // namespace
 
-graph::ImportedImage imported_image(const ResidentImageTarget& target, VkImage own) {
+// Another image or buffer of the host's may have the handle of one that is gone, so each time
+// counts as new.
+graph::ImportedImage imported_image(const ResidentImageTarget& target, VkImage own,
+                                    VkImageView view, std::uint64_t identity) {
     if (target.image == VK_NULL_HANDLE) {
-        return {own};
+        return {.image = own, .view = view, .identity = identity};
     }
-    return {target.image, target.level, target.layer,
-            graph::ExternalUses{use_of(target.before), use_of(target.after)}};
+    return {target.image, target.level,
+            target.layer, graph::ExternalUses{use_of(target.before), use_of(target.after)},
+            view,         next_revision()};
 }
 
-BufferPart range_of_target(const ResidentBufferTarget& target, const BufferPart& own) {
-    return target.buffer == VK_NULL_HANDLE ? own
-                                           : BufferPart{target.buffer, target.offset, own.bytes};
+gpu::BufferPart range_of_target(const ResidentBufferTarget& target, const gpu::BufferPart& own) {
+    return target.buffer == VK_NULL_HANDLE
+               ? own
+               : gpu::BufferPart{target.buffer, target.offset, own.bytes, VK_NULL_HANDLE,
+                                 next_revision()};
 }
 
-graph::ImportedBuffer imported_buffer(const ResidentBufferTarget& target, const BufferPart& range) {
+std::optional<graph::ExternalUses> uses_of(const ResidentBufferTarget& target) {
     if (target.buffer == VK_NULL_HANDLE) {
-        return {range.buffer};
+        return std::nullopt;
     }
     graph::ExternalUses uses{use_of(target.before), use_of(target.after)};
     const graph::AccessTraits& read = graph::traits(graph::Access::storage_read_in_compute);
     uses.after.stages |= read.stages;
     uses.after.access |= read.access();
-    return {range.buffer, range.offset, range.bytes, uses};
+    return uses;
 }
 
 VkPipelineStageFlags readers_of_targets(const plan::ResidentOutputs& resident) {

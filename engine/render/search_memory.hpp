@@ -62,6 +62,12 @@ public:
     [[nodiscard]] VkBuffer handle() const { return buffer_.handle(); }
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     [[nodiscard]] VkBufferView texels() const { return texels_.get(); }
+    /// What passes bind.
+    [[nodiscard]] gpu::BufferPart part() const {
+        gpu::BufferPart part = buffer_.part(0, bytes_);
+        part.texels = texels_.get();
+        return part;
+    }
 
 private:
     const gpu::Device* device_;

@@ -5,13 +5,10 @@
 #include <engine/render/world_query_buffers.hpp>
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 namespace nearfield::render {
 namespace {
-
-constexpr std::array<const char*, 1> names_of_query_sets{"nearfield world query set"};
 
 struct Sizes {
     std::uint64_t question;
@@ -33,13 +30,14 @@ Sizes sizes_of(plan::WorldQuestion question) {
 }  // namespace
 
 WorldQueryBuffers::WorldQueryBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
+                                     const passes::WorldQueries& passes,
                                      plan::WorldQuestion question, bool timestamps)
     : device_(&device),
-      layout_(&layout),
+      passes_(&passes),
       question_bytes_(sizes_of(question).question),
       answer_bytes_(sizes_of(question).answer),
       submission_(device),
-      timestamps_(device, passes::WorldQueries::max_passes, timestamps),
+      timestamps_(device, static_cast<std::uint32_t>(passes.graph.passes().size()), timestamps),
       world_(device),
       questions_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
                  "nearfield world questions"),
@@ -47,9 +45,8 @@ WorldQueryBuffers::WorldQueryBuffers(const gpu::Device& device, const passes::Co
                "nearfield world query scratch"),
       answers_(device, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Direction::readback,
                "nearfield world answers"),
-      sets_(device, layout, names_of_query_sets) {
-    item_.set = sets_[0];
-}
+      resources_(passes.graph.make_resources(layout)),
+      updates_(device) {}
 
 WorldQueryBuffers::~WorldQueryBuffers() {
     if (is_submitted_) {
@@ -59,7 +56,7 @@ WorldQueryBuffers::~WorldQueryBuffers() {
 
 std::byte* WorldQueryBuffers::reserve(std::uint64_t count, std::uint64_t memory_limit) {
     ScratchLayout layout;
-    item_.push.boxes = layout.units(units_of_boxes(world_.count()));
+    input_.push.boxes = layout.units(units_of_boxes(world_.count()));
     const std::uint64_t first_answer = layout.bytes();
     const std::uint64_t reached = device_->limits().maxStorageBufferRange;
     // Divided first: no count overflows.
@@ -77,58 +74,50 @@ std::byte* WorldQueryBuffers::reserve(std::uint64_t count, std::uint64_t memory_
                                         std::to_string(memory_limit) + ", and shaders reach " +
                                         std::to_string(reached) + " of a buffer"});
     }
-    item_.push.count = static_cast<std::uint32_t>(count);
-    item_.push.answers = static_cast<std::uint32_t>(first_answer / plan::bytes_of_unit);
-    item_.copy = {first_answer, 0, answers};
-    const bool is_new_scratch = reserve_with_texels(*device_, scratch_, scratch_texels_, scratch,
-                                                    "nearfield world query scratch texels");
-    const bool are_new_questions = questions_.reserve(questions);
-    const bool are_new_answers = answers_.reserve(answers);
-    is_bound_ = is_bound_ && !is_new_scratch && !are_new_questions && !are_new_answers;
+    input_.push.count = static_cast<std::uint32_t>(count);
+    input_.push.answers = static_cast<std::uint32_t>(first_answer / plan::bytes_of_unit);
+    input_.copy = {first_answer, 0, answers};
+    reserve_with_texels(*device_, scratch_, scratch_texels_, scratch,
+                        "nearfield world query scratch texels");
+    questions_.reserve(questions);
+    answers_.reserve(answers);
     return questions_.data();
 }
 
+/// All of what there is, so that the sets stay as they are while the numbers vary.
 void WorldQueryBuffers::bind() {
-    using Layout = passes::ComputeLayout;
-    layout_->begin_updates();
-    world_.write_bindings(*layout_, item_.set);
     const std::uint64_t reached = device_->limits().maxStorageBufferRange;
-    const auto write = [&](Layout::Binding binding, const gpu::MappedBuffer& buffer) {
-        layout_->write_buffer(item_.set, binding, buffer.handle(), 0,
-                              std::min(buffer.capacity(), reached));
+    const auto all_of = [reached](const gpu::MappedBuffer& buffer) {
+        return buffer.part(0, std::min(buffer.capacity(), reached));
     };
-    write(Layout::geometry, scratch_);
-    layout_->write_texels(item_.set, Layout::scratch_texels, scratch_texels_.get());
-    write(Layout::output, questions_);
-    layout_->end_updates();
-    item_.shapes = world_.shapes().handle();
-    item_.instances = world_.instances();
-    item_.questions = questions_.handle();
-    item_.scratch = scratch_.handle();
-    item_.answers = answers_.handle();
-    bound_world_ = world_.revision();
-    is_bound_ = true;
+    gpu::BufferPart scratch = all_of(scratch_);
+    scratch.texels = scratch_texels_.get();
+    resources_.set(passes_->shapes, world_.shape_part());
+    resources_.set(passes_->instances, world_.instance_part());
+    resources_.set(passes_->questions, all_of(questions_));
+    resources_.set(passes_->scratch, scratch);
+    resources_.set(passes_->answers, all_of(answers_));
+    updates_.begin();
+    updates_.add(resources_);
+    updates_.end();
 }
 
-void WorldQueryBuffers::begin(const passes::WorldQueries& passes, const plan::SearchShapes& shapes,
-                              const plan::WorldQueryPush& push, Timings& timings) {
+void WorldQueryBuffers::begin(const plan::SearchShapes& shapes, const plan::WorldQueryPush& push,
+                              Timings& timings) {
     const Stopwatch start;
     checkpoint();
     world_.upload(shapes);
     questions_.flush();
-    if (!is_bound_ || bound_world_ != world_.revision()) {
-        is_bound_ = false;
-        bind();
-    }
-    const plan::WorldQueryPush placed = item_.push;
-    item_.push = push;
-    item_.push.instances = world_.count();
-    item_.push.boxes = placed.boxes;
-    item_.push.answers = placed.answers;
-    item_.push.count = placed.count;
+    bind();
+    const plan::WorldQueryPush placed = input_.push;
+    input_.push = push;
+    input_.push.instances = world_.count();
+    input_.push.boxes = placed.boxes;
+    input_.push.answers = placed.answers;
+    input_.push.count = placed.count;
     VkCommandBuffer commands = submission_.begin();
     timestamps_.reset(commands);
-    passes.record(commands, timestamps_, item_);
+    passes_->graph.execute(commands, timestamps_, resources_, input_);
     submission_.submit();
     is_submitted_ = true;
     timings.record += start.milliseconds();

@@ -5,12 +5,12 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/graph/bound_resources.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/plan/world_question.hpp>
 #include <engine/render/instance_buffers.hpp>
 #include <nearfield/timings.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/compute_sets.hpp>
 #include <passes/world_queries.hpp>
 
 #include <cstddef>
@@ -18,12 +18,14 @@
 
 namespace nearfield::render {
 
-/// The memory of many questions about a world's instances, with its descriptor set and its
-/// submission. It only grows.
+/// The memory of many questions about a world's instances, with its submission. It only
+/// grows.
 class WorldQueryBuffers {
 public:
+    /// The passes must stay.
     WorldQueryBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
-                      plan::WorldQuestion question, bool timestamps);
+                      const passes::WorldQueries& passes, plan::WorldQuestion question,
+                      bool timestamps);
     /// Waits for the device if it is still working.
     ~WorldQueryBuffers();
     WorldQueryBuffers(const WorldQueryBuffers&) = delete;
@@ -36,10 +38,10 @@ public:
     /// be written. Throws StatusException (too_large) if they, or all boxes and answers, are more
     /// than the device's shaders reach in a buffer, or all memory is more than `memory_limit`.
     [[nodiscard]] std::byte* reserve(std::uint64_t count, std::uint64_t memory_limit);
-    /// Lets the device answer them. The passes must stay until finish(), and nothing may be
-    /// changed. `push`: who is asked. Adds the time of recording and submission.
-    void begin(const passes::WorldQueries& passes, const plan::SearchShapes& shapes,
-               const plan::WorldQueryPush& push, Timings& timings);
+    /// Lets the device answer them; nothing may be changed until finish(). `push`: who is asked.
+    /// Adds the time of recording and submission.
+    void begin(const plan::SearchShapes& shapes, const plan::WorldQueryPush& push,
+               Timings& timings);
     /// Whether finish() need not wait for what was begun.
     [[nodiscard]] bool is_done() const { return !is_submitted_ || submission_.is_done(); }
     /// Waits for what was begun. Adds the times of the wait and of the passes.
@@ -52,7 +54,7 @@ private:
     void bind();
 
     const gpu::Device* device_;
-    const passes::ComputeLayout* layout_;
+    const passes::WorldQueries* passes_;
     std::uint64_t question_bytes_;
     std::uint64_t answer_bytes_;
     gpu::Submission submission_;
@@ -62,10 +64,9 @@ private:
     gpu::MappedBuffer scratch_;
     gpu::MappedBuffer answers_;
     gpu::Owned<VkBufferView> scratch_texels_;
-    passes::DescriptorSets sets_;
-    passes::WorldQueries::Item item_;
-    std::uint32_t bound_world_ = 0;  // revision of the instances
-    bool is_bound_ = false;
+    graph::BoundResources resources_;
+    graph::DescriptorUpdates updates_;
+    passes::WorldQueries::Input input_;
     bool is_submitted_ = false;
 };
 

@@ -163,7 +163,7 @@ void WorldRequest::State::begin(const Stopwatch& total, plan::WorldQueryPush& pu
     push.mask = filter_.mask;
     push.ignored = ignored_;
     push.magnitude = plan::rounded_up(2.0 * instances_.origin().lpNorm<1>());
-    buffers_->begin(renderer.world_queries(question), instances_.shapes(), push, timings);
+    buffers_->begin(instances_.shapes(), push, timings);
 }
 
 void WorldRequest::State::clear_left() {

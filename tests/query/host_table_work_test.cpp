@@ -26,7 +26,7 @@ TEST_F(HostTable, Work) {
 }
 
 /// However many queries, kinds and results: all descriptors of a batch are written by one call, and
-/// those of its search for points by another.
+/// those of its search for points by another. What they refer to already is not written again.
 TEST_F(HostTable, DescriptorsAreWrittenTogether) {
     make_host();
     int updates = 0;
@@ -43,7 +43,8 @@ TEST_F(HostTable, DescriptorsAreWrittenTogether) {
     for (std::uint64_t frame = 0; frame < 4; ++frame) {
         updates = 0;
         (void)scene.record(frame % 2 == 0 ? all : scene.small(), frames, frame);
-        EXPECT_EQ(updates, frame % 2 == 0 ? 2 : 1) << frame;
+        constexpr std::array expected{2, 1, 1, 0};
+        EXPECT_EQ(updates, expected[frame]) << frame;
     }
 }
 

@@ -1,0 +1,229 @@
+#include <engine/graph/access.hpp>
+#include <passes/exports.hpp>
+
+#include <shaders/export_field_comp.hpp>
+#include <shaders/export_headers_comp.hpp>
+#include <shaders/export_records_comp.hpp>
+#include <shaders/export_samples_comp.hpp>
+
+namespace nearfield::passes {
+
+using graph::Access;
+
+namespace {
+
+constexpr graph::ExternalAccess exported_image{Access::exported_image, Access::exported_image};
+constexpr graph::ExternalAccess exported_buffer{Access::exported_buffer, Access::exported_buffer};
+/// As the graphs of tile batches leave it.
+constexpr graph::ExternalAccess after_tiles{write, {}};
+
+void dispatch_parts(const ComputeShader& shader, const graph::PassCommands& commands,
+                    const ExportField::Input& input) {
+    for (std::size_t i = 0; i < input.parts.size(); ++i) {
+        const plan::FieldPartOutput& part = input.parts[i];
+        shader.bind_set(commands, commands.set_of(input.resources[i]));
+        const plan::ExportFieldPush push{part.value,
+                                         part.feature,
+                                         part.stride,
+                                         part.width,
+                                         part.height,
+                                         static_cast<std::int32_t>(part.column),
+                                         static_cast<std::int32_t>(part.row),
+                                         input.field->rings.first_word,
+                                         input.field->rings.count,
+                                         static_cast<float>(input.field->cell)};
+        shader.push(commands, push);
+        shader.dispatch_cells(commands, part.width, part.height);
+    }
+}
+
+void dispatch_runs(const ComputeShader& shader, const graph::PassCommands& commands,
+                   const ExportRecords::Input& input, std::uint32_t step) {
+    for (std::size_t i = 0; i < input.runs.size(); ++i) {
+        const plan::PointRunOutput& run = input.runs[i];
+        shader.bind_set(commands, commands.set_of(input.resources[i]));
+        const plan::ExportRecordsPush push{step,
+                                           run.first_block,
+                                           run.blocks(),
+                                           run.count,
+                                           run.first,
+                                           input.details[i],
+                                           run.table,
+                                           run.rings.first_word,
+                                           run.rings.count,
+                                           run.flags,
+                                           static_cast<float>(input.records->cell),
+                                           input.records->near,
+                                           input.records->capacity};
+        shader.push(commands, push);
+        shader.dispatch_threads(commands, run.blocks());
+    }
+}
+
+// The sets of the first pass: its shader finds either at the same binding.
+constexpr std::uint32_t with_summaries = 0;
+constexpr std::uint32_t with_hits = 1;
+
+/// Dispatches `threads` threads. `table`, `first_tile`, `tile_count`: as in the shader.
+void dispatch_step(const ComputeShader& shader, VkCommandBuffer commands,
+                   const plan::SamplesOutput& samples, std::uint32_t step, std::uint32_t table,
+                   std::uint32_t first_tile, std::uint32_t tile_count, std::uint32_t threads) {
+    shader.push(commands, plan::ExportSamplesPush{
+                              step, table, first_tile, tile_count, samples.block_count,
+                              samples.capacity, samples.rings.first_word, samples.rings.count,
+                              samples.vertices, static_cast<float>(samples.cell)});
+    shader.dispatch_threads(commands, threads);
+}
+
+/// One thread per row of each tile; nothing if the samples are omitted.
+void dispatch_rows(const ComputeShader& shader, const graph::PassCommands& commands,
+                   const ExportSamples::Input& input, std::uint32_t set, std::uint32_t step) {
+    for (std::size_t i = 0; input.samples->block_count > 0 && i < input.runs.size(); ++i) {
+        const plan::SampleRunOutput& run = input.runs[i];
+        shader.bind_set(commands, commands.set_of(input.resources[i], set));
+        for (std::uint32_t tile = 0; tile < run.tile_count; ++tile) {
+            dispatch_step(shader, commands, *input.samples, step,
+                          run.table + tile * plan::words_of_tile, 0, input.samples->tile_count,
+                          input.tiles[run.first_tile + tile].height);
+        }
+    }
+}
+
+void dispatch_count(const ComputeShader& shader, const graph::PassCommands& commands,
+                    const ExportSamples::Input& input) {
+    std::uint32_t first_tile = 0;
+    for (std::size_t i = 0; i < input.runs.size(); ++i) {
+        const plan::SampleRunOutput& run = input.runs[i];
+        shader.bind_set(commands, commands.set_of(input.resources[i], with_summaries));
+        dispatch_step(shader, commands, *input.samples, plan::box_step, run.table, first_tile,
+                      run.tile_count, run.tile_count);
+        first_tile += run.tile_count;
+    }
+    dispatch_rows(shader, commands, input, with_hits, plan::count_step);
+}
+
+}  // namespace
+
+CopyBack::CopyBack(const gpu::Device& device)
+    : words(graph.import_buffer({"words"}, after_tiles)),
+      read_back(graph.import_buffer({"read-back", false, true})) {
+    graph.add_pass(
+        "copy back", graph::PassKind::compute,
+        [this](graph::PassBuilder& pass) {
+            pass.read(words, Access::transfer_read);
+            static_cast<void>(pass.write(read_back, Access::transfer_write));
+        },
+        [this, &device](const graph::PassCommands& commands, std::span<const VkBufferCopy> ranges) {
+            device.functions().vkCmdCopyBuffer(
+                commands, commands.part(words).buffer, commands.part(read_back).buffer,
+                static_cast<std::uint32_t>(ranges.size()), ranges.data());
+        });
+    graph.compile(device);
+}
+
+ExportField::ExportField(const gpu::Device& device, const ComputeLayout& layout)
+    : shader(device, layout, shaders::export_field_comp, "nearfield export field"),
+      words(graph.import_buffer({"field results"}, after_tiles)),
+      tables(graph.import_buffer({"tables", true, false})),
+      signed_distance(
+          graph.import_image({"signed distance", VK_FORMAT_R32_SFLOAT}, exported_image)),
+      feature(graph.import_image({"feature id", VK_FORMAT_R32_UINT}, exported_image)) {
+    graph::Handle distances = signed_distance;
+    graph::Handle features = feature;
+    add_pass(graph, "export field", shader,
+             {{0, words},
+              {1, tables},
+              {6, distances, Access::storage_image_in_compute},
+              {7, features, Access::storage_image_in_compute}},
+             dispatch_parts);
+    graph.compile(device);
+}
+
+ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& layout)
+    : shader(device, layout, shaders::export_records_comp, "nearfield export records"),
+      words(graph.import_buffer({"point results"}, after_tiles)),
+      tables(graph.import_buffer({"tables", true, false})),
+      blocks(graph.import_buffer({"record blocks"})),
+      records(graph.import_buffer({"records"}, exported_buffer)) {
+    graph::Handle counted = blocks;
+    graph::Handle output = records;
+    // The first pass writes no record. It waits for a buffer of the host all the same: its shader
+    // has the binding, and to validation layers that is an access.
+    add_pass(graph, "count records", shader,
+             {{0, words}, {1, tables}, {3, counted, write}, {2, output, write}},
+             [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
+                 dispatch_runs(of, commands, input, plan::count_step);
+             });
+    add_pass(graph, "place records", shader, {{3, counted, write}, {2, output, write}},
+             [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
+                 plan::ExportRecordsPush push{};
+                 push.step = plan::place_step;
+                 push.block_count = input.records->block_count;
+                 push.capacity = input.records->capacity;
+                 of.push(commands, push);
+                 of.dispatch_threads(commands, 1);
+             });
+    add_pass(graph, "write records", shader,
+             {{0, words}, {1, tables}, {3, counted}, {2, output, write}},
+             [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
+                 dispatch_runs(of, commands, input, plan::write_step);
+             });
+    graph.compile(device);
+}
+
+// The graphs of the tile batches leave their hits readable (render::CompiledGraph), wherever they
+// are stored.
+ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& layout)
+    : shader(device, layout, shaders::export_samples_comp, "nearfield export samples"),
+      summaries(graph.import_buffer({"tile summaries"}, after_tiles)),
+      hits(graph.import_buffer({"found in cells"}, {read, {}})),
+      tables(graph.import_buffer({"tables", true, false})),
+      blocks(graph.import_buffer({"sample blocks"})),
+      samples(graph.import_buffer({"resident samples"}, exported_buffer)) {
+    graph::Handle counted = blocks;
+    graph::Handle output = samples;
+    // The first pass writes no sample; see ExportRecords.
+    add_pass(graph, "count samples", shader,
+             {{0, summaries, read, 0, with_summaries},
+              {0, hits, read, 0, with_hits},
+              {1, tables},
+              {3, counted, write},
+              {2, output, write}},
+             dispatch_count);
+    add_pass(graph, "place samples", shader, {{3, counted, write}, {2, output, write}},
+             [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
+                 dispatch_step(of, commands, *input.samples, plan::place_step, 0, 0,
+                               input.samples->tile_count, 1);
+             });
+    add_pass(graph, "write samples", shader,
+             {{0, hits}, {1, tables}, {3, counted}, {2, output, write}},
+             [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
+                 dispatch_rows(of, commands, input, 0, plan::write_step);
+             });
+    graph.compile(device);
+}
+
+// The graphs of records and samples leave their summaries readable by compute shaders, so the first
+// barrier only has to keep this pass behind them.
+ExportHeaders::ExportHeaders(const gpu::Device& device, const ComputeLayout& layout)
+    : shader(device, layout, shaders::export_headers_comp, "nearfield export headers"),
+      summary(graph.import_buffer({"summary"}, {read, {}})),
+      headers(graph.import_buffer({"resident headers"}, exported_buffer)) {
+    graph::Handle output = headers;
+    add_pass(graph, "export headers", shader, {{2, summary}, {3, output, write, 1}},
+             [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
+                 for (std::size_t i = 0; i < input.headers.size(); ++i) {
+                     of.bind_set(commands, commands.set_of(input.resources[i]));
+                     of.push(commands, input.headers[i]);
+                     of.dispatch(commands, 1);
+                 }
+             });
+    graph.compile(device);
+}
+
+graph::ExternalUses ExportHeaders::uses(VkPipelineStageFlags readers) {
+    const graph::AccessTraits& exported = graph::traits(Access::exported_buffer);
+    return {{exported.stages, exported.access()}, {exported.stages | readers, exported.access()}};
+}
+
+}  // namespace nearfield::passes

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/graph/recorded_graph.hpp>
+#include <engine/plan/resident_outputs.hpp>
+#include <passes/compute_shader.hpp>
+
+#include <cstdint>
+#include <span>
+
+/// \file The last passes of a batch with results that stay on the device. They are graphs of their
+/// own because what they write belongs to the batch and not to the compiled graph of a tile batch.
+/// A pass that is dispatched for each of several runs of what it reads is given resources for each.
+
+namespace nearfield::passes {
+
+/// Copies words of tile batches with resident outputs to the read-back buffer.
+struct CopyBack {
+    explicit CopyBack(const gpu::Device& device);
+
+    graph::RecordedGraph<std::span<const VkBufferCopy>> graph;
+    graph::Handle words;
+    graph::Handle read_back;
+};
+
+/// Copies the resolved cells of a field to images for the host's shaders. Leaves the images in the
+/// layout in which these read them, or in the one that the host asked for where they are its own.
+struct ExportField {
+    ExportField(const gpu::Device& device, const ComputeLayout& layout);
+
+    struct Input {
+        const plan::FieldOutputs* field = nullptr;
+        std::span<const plan::FieldPartOutput> parts;
+        std::span<const graph::BoundResources> resources;  ///< by part
+    };
+
+    ComputeShader shader;
+    graph::RecordedGraph<Input> graph;
+    graph::Handle words;  ///< of fields, as written by the tile batches
+    graph::Handle tables;
+    graph::Handle signed_distance;
+    graph::Handle feature;
+};
+
+/// The records of a query: count, place, write.
+struct ExportRecords {
+    ExportRecords(const gpu::Device& device, const ComputeLayout& layout);
+
+    struct Input {
+        const plan::RecordsOutput* records = nullptr;
+        std::span<const plan::PointRunOutput> runs;
+        std::span<const std::uint32_t> details;  ///< by run: index of the first point's details
+        std::span<const graph::BoundResources> resources;  ///< by run, and at least one
+    };
+
+    ComputeShader shader;
+    graph::RecordedGraph<Input> graph;
+    graph::Handle words;  ///< of points, as written by the tile batches
+    graph::Handle tables;
+    graph::Handle blocks;
+    graph::Handle records;  ///< with their summary
+};
+
+/// The samples of an intersection: box, count, place, write.
+struct ExportSamples {
+    ExportSamples(const gpu::Device& device, const ComputeLayout& layout);
+
+    struct Input {
+        const plan::SamplesOutput* samples = nullptr;
+        std::span<const plan::SampleRunOutput> runs;
+        std::span<const plan::SampleTileData> tiles;       ///< of all queries
+        std::span<const graph::BoundResources> resources;  ///< by run, and at least one
+    };
+
+    ComputeShader shader;
+    graph::RecordedGraph<Input> graph;
+    graph::Handle summaries;  ///< as written by the tile batches
+    graph::Handle hits;       ///< in the cells
+    graph::Handle tables;
+    graph::Handle blocks;
+    graph::Handle samples;  ///< with their summary
+};
+
+/// After all these, the header of each output (ResidentHeaderData).
+struct ExportHeaders {
+    ExportHeaders(const gpu::Device& device, const ComputeLayout& layout);
+
+    struct Input {
+        std::span<const plan::ExportHeaderPush> headers;
+        std::span<const graph::BoundResources> resources;  ///< by header
+    };
+    /// The uses of the buffer of headers, if the host uses buffers of its own after the batch in
+    /// these stages: they wait for this pass, which reads the summaries there.
+    [[nodiscard]] static graph::ExternalUses uses(VkPipelineStageFlags readers);
+
+    ComputeShader shader;
+    graph::RecordedGraph<Input> graph;
+    graph::Handle summary;
+    /// The buffer of all headers, and of most summaries; its second part is the header to write.
+    graph::Handle headers;
+};
+
+}  // namespace nearfield::passes
