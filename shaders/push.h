@@ -102,8 +102,8 @@ struct ResolvePointsPush {
 };
 
 struct SearchPush {
-    uint first;        // instance, or given direction, of this dispatch
-    uint directions;   // first units, and first words, of arrays in the scratch memory
+    uint first;       // instance, or given direction, of this dispatch
+    uint directions;  // first units, and first words, of arrays in the scratch memory
     uint item_blocks;
     uint edge_blocks;
     uint point_blocks;
@@ -111,8 +111,8 @@ struct SearchPush {
     uint item_words;
     uint edge_units;
     uint point_units;
-    uint stage;     // that the shader counts
-    uint capacity;  // of its elements
+    uint stage;             // that the shader counts
+    uint capacity;          // of its elements
     uint second_capacity;   // of items, where pairs are counted
     uint flags;             // search_packs_all, search_crosses
     uint instances;         // their number; 0: the directions are given

@@ -30,11 +30,11 @@ const uint points_per_thread = 4u;
 // Replaces the first word of the numbers of parts: one point per edge, its first vertex.
 const uint no_parts = 0xffffffffu;
 
-// The stages count ordered pairs, which are the directions, their items, edges, points, points that were
-// found, and the pairs with an answer. The first words of the scratch memory
-// say of each stage how many there are and there is room for, those from first_counted on how many
-// were counted. Each has arguments of a dispatch: three numbers of workgroups, of which there is at
-// least one, and how many were counted.
+// The stages count ordered pairs, which are the directions, their items, edges, points, points that
+// were found, and the pairs with an answer. The first words of the scratch memory say of each stage
+// how many there are and there is room for, those from first_counted on how many were counted. Each
+// has arguments of a dispatch: three numbers of workgroups, of which there is at least one, and how
+// many were counted.
 const uint edge_total = 0u;
 const uint point_total = 1u;
 const uint record_total = 2u;
@@ -65,8 +65,8 @@ struct SearchDirectionData {
     float rival NEARFIELD_DEFAULT(0.0F);
     float outside NEARFIELD_DEFAULT(0.0F);  // 1: points outside B are asked for as well
     float doubt NEARFIELD_DEFAULT(0.0F);  // a second edge farther by no more: in doubt; < 0: never
-    // Points that are not deeper only touch. Negative: the row tells nothing of the points, of which
-    // the host asks for all; or the CPU answers the pair
+    // Points that are not deeper only touch. Negative: the row tells nothing of the points, of
+    // which the host asks for all; or the CPU answers the pair
     float touching NEARFIELD_DEFAULT(-1.0F);
     // Numbers of the instances; of a direction that the host gives, of its query, and nothing
     uint a NEARFIELD_DEFAULT(0);
@@ -78,9 +78,9 @@ NEARFIELD_CHECK(sizeof(SearchDirectionData) == 16 * units_of_direction)
 // A point that the device has found.
 struct FoundPointData {
     uint direction NEARFIELD_DEFAULT(0);
-    uint edge NEARFIELD_DEFAULT(0);  // of A
+    uint edge NEARFIELD_DEFAULT(0);    // of A
     uint number NEARFIELD_DEFAULT(0);  // among the points of the edge
-    uint word NEARFIELD_DEFAULT(0);  // B's nearest edge and flags, as point_inside
+    uint word NEARFIELD_DEFAULT(0);    // B's nearest edge and flags, as point_inside
 };
 NEARFIELD_CHECK(sizeof(FoundPointData) == 16)
 // The error of a depth in margins: that of the point's place, and roundings of the distance.

@@ -15,7 +15,7 @@ constexpr std::array<const char*, 2> names_of_part_sets{"nearfield pair set of p
 constexpr std::uint64_t bytes_of_counts = plan::words_of_counts * sizeof(std::uint32_t);
 /// Those of the dispatches of all stages.
 constexpr std::uint64_t bytes_of_arguments =
-    plan::stages_of_pairs * plan::words_of_arguments * sizeof(std::uint32_t);
+    std::uint64_t{plan::stages_of_pairs} * plan::words_of_arguments * sizeof(std::uint32_t);
 
 bool have_room(const PairCounts& counts, const PairCounts& capacities) {
     return std::equal(counts.begin(), counts.end(), capacities.begin(),

@@ -264,17 +264,17 @@ void PairTableBase::State::run_or_start_anew(Context::Implementation& context,
 
 void PairTableBase::State::start_anew() {
     is_submitted_ = false;
-    row_count = candidate_count = answer_count = 0;
+    row_count_ = candidate_count_ = answer_count_ = 0;
     forget_answers();
     forget_exact_rows();
-    if (device != nullptr) {
-        device->start_anew();
+    if (device_ != nullptr) {
+        device_->start_anew();
     }
 }
 
 void PairTableBase::State::require_collected(const char* call) const {
-    if (device != nullptr) {
-        device->require_collected(call);
+    if (device_ != nullptr) {
+        device_->require_collected(call);
     }
     if (is_submitted_) {
         throw StatusException(
@@ -310,9 +310,9 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
     }
     if (technique == Technique::compute) {
         table::require_for_device(call, query, options);
-        if (device == nullptr) {
+        if (device_ == nullptr) {
             start_anew();
-            device = std::make_unique<DevicePairs>(query, options.reach, timings);
+            device_ = std::make_unique<DevicePairs>(query, options.reach, timings);
         }
     } else {
         if (needs_device) {
@@ -320,9 +320,9 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
                    "commands of the host, poses that they write and resident results are for "
                    "Technique::compute; the table is answered by Technique::cpu");
         }
-        if (device != nullptr) {
+        if (device_ != nullptr) {
             start_anew();
-            device.reset();
+            device_.reset();
         }
     }
 }
@@ -332,9 +332,9 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
     choose(call, world, input, recording != nullptr);
     read_status = {};
     forget_exact_rows();
-    if (device != nullptr) {
-        device->start(call, world.context, {{world.identity, world.instances}, input.poses},
-                      recording);
+    if (device_ != nullptr) {
+        device_->start(call, world.context, {{world.identity, world.instances}, input.poses},
+                       recording);
         return;
     }
     const Stopwatch total;
@@ -347,8 +347,8 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
 }
 
 void PairTableBase::State::finish() {
-    if (device != nullptr) {
-        device->finish();
+    if (device_ != nullptr) {
+        device_->finish();
     }
     is_submitted_ = false;
 }
@@ -377,50 +377,50 @@ void PairTableBase::State::record(const WorldView& world, const PairTableInput& 
 }
 
 void PairTableBase::State::collect() {
-    const bool is_for_frame = device != nullptr && device->is_for_frame();
+    const bool is_for_frame = device_ != nullptr && device_->is_for_frame();
     if (is_for_frame) {
-        device->require_complete_frame("collect");
-    } else if (!is_submitted_ && (device == nullptr || !device->is_submitted())) {
+        device_->require_complete_frame("collect");
+    } else if (!is_submitted_ && (device_ == nullptr || !device_->is_submitted())) {
         throw StatusException({StatusCode::not_ready, "collect: the table was not submitted"});
     }
     read_status = {};
     forget_exact_rows();
     if (is_for_frame) {
-        device->collect_recorded();
+        device_->collect_recorded();
     } else {
         run_or_start_anew(*context_, [&] { finish(); });
     }
 }
 
 bool PairTableBase::State::is_recorded(const WorldView& world) const {
-    return device != nullptr &&
-           device->is_recorded(world.context, {world.identity, world.instances});
+    return device_ != nullptr &&
+           device_->is_recorded(world.context, {world.identity, world.instances});
 }
 
 bool PairTableBase::State::is_ready() const {
-    return device != nullptr ? device->is_ready() : is_submitted_;
+    return device_ != nullptr ? device_->is_ready() : is_submitted_;
 }
 
 ResidentPairs PairTableBase::State::resident() const {
     if (!table::is_resident(query)) {
         refuse("resident", "the table's query does without results that stay on the device");
     }
-    if (device == nullptr) {
+    if (device_ == nullptr) {
         throw StatusException({StatusCode::not_ready, "resident: the table was not submitted"});
     }
-    return device->resident();
+    return device_->resident();
 }
 
 std::uint32_t PairTableBase::State::size() const {
-    return device != nullptr ? device->size() : is_submitted_ ? 0 : row_count;
+    return device_ != nullptr ? device_->size() : is_submitted_ ? 0 : row_count_;
 }
 
 std::uint32_t PairTableBase::State::candidates() const {
-    return device != nullptr ? device->candidates() : is_submitted_ ? 0 : candidate_count;
+    return device_ != nullptr ? device_->candidates() : is_submitted_ ? 0 : candidate_count_;
 }
 
 std::uint32_t PairTableBase::State::left_to_cpu() const {
-    return device != nullptr ? device->left_to_cpu() : is_submitted_ ? 0 : answer_count;
+    return device_ != nullptr ? device_->left_to_cpu() : is_submitted_ ? 0 : answer_count_;
 }
 
 PairTableBase::PairTableBase(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -474,7 +474,7 @@ struct PairTable<Query>::Rows final : State {
     Rows(const Query& query, const PairTableOptions& options) : State(query, options) {}
 
     [[nodiscard]] std::span<const Row> rows() {
-        if (device != nullptr) {
+        if (device_ != nullptr) {
             make_exact();
         }
         return std::span(now_.rows).first(size());
@@ -484,15 +484,15 @@ struct PairTable<Query>::Rows final : State {
             refuse("row", "there is no row " + std::to_string(index) + "; the table has " +
                               std::to_string(size()));
         }
-        return device == nullptr || are_exact_ ? now_.rows[index] : exact_row(index);
+        return device_ == nullptr || are_exact_ ? now_.rows[index] : exact_row(index);
     }
     [[nodiscard]] std::span<const Record> records(const Row& row) {
         if (row.index >= size() || row.record_count == 0) {
             return {};
         }
-        if constexpr (requires { device->records(0U, records_); }) {
-            if (device != nullptr) {
-                device->records(row.index, records_);
+        if constexpr (requires { device_->records(0U, records_); }) {
+            if (device_ != nullptr) {
+                device_->records(row.index, records_);
                 return records_;
             }
         }
@@ -502,8 +502,8 @@ struct PairTable<Query>::Rows final : State {
         if (row.index >= size()) {
             return {};
         }
-        if (device != nullptr) {
-            device->manifold(row.index, manifold_);
+        if (device_ != nullptr) {
+            device_->manifold(row.index, manifold_);
             return manifold_;
         }
         return manifolds_of_rows_[now_.manifolds[row.index]];
@@ -535,7 +535,7 @@ private:
             answer_new_pairs(world, query);
             merge_rows();
         }
-        row_count = static_cast<std::uint32_t>(now_.rows.size());
+        row_count_ = static_cast<std::uint32_t>(now_.rows.size());
     }
 
     void forget_answers() override {
@@ -565,8 +565,8 @@ private:
     /// Of the device.
     [[nodiscard]] Row exact_row(std::uint32_t index) {
         Row row;
-        if constexpr (requires { device->row(index, row); }) {
-            device->row(index, row);
+        if constexpr (requires { device_->row(index, row); }) {
+            device_->row(index, row);
         }
         row.index = index;
         return row;
@@ -605,7 +605,7 @@ private:
         } else {
             list_.update(instances, reach(), !plan::is_symmetric<Query>);
         }
-        candidate_count = static_cast<std::uint32_t>(list_.pairs().size());
+        candidate_count_ = static_cast<std::uint32_t>(list_.pairs().size());
         timings.plan = start.milliseconds();
     }
 
@@ -621,7 +621,7 @@ private:
 
     void answer_list(const char* call, const WorldView& world, const Query& query,
                      const PairTableInput& input) {
-        candidate_count = static_cast<std::uint32_t>(input.a.size());
+        candidate_count_ = static_cast<std::uint32_t>(input.a.size());
         records_of_rows_.clear();
         manifolds_of_rows_.clear();
         answer_pairs(world, query, input.a.size(), [&](std::size_t i) {
@@ -656,7 +656,7 @@ private:
         } else {
             answer_by_batches(world, query, count, pair_of);
         }
-        answer_count = static_cast<std::uint32_t>(count);
+        answer_count_ = static_cast<std::uint32_t>(count);
     }
 
     template <class PairOf>

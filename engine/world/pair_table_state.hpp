@@ -42,11 +42,11 @@ protected:
     /// Forgets the rows of the device that were made exact.
     virtual void forget_exact_rows() = 0;
 
-    std::unique_ptr<DevicePairs> device;  // null: the CPU answers
+    std::unique_ptr<DevicePairs> device_;  // null: the CPU answers
     // By the CPU, at the last update.
-    std::uint32_t row_count = 0;
-    std::uint32_t candidate_count = 0;
-    std::uint32_t answer_count = 0;
+    std::uint32_t row_count_ = 0;
+    std::uint32_t candidate_count_ = 0;
+    std::uint32_t answer_count_ = 0;
 
 private:
     void start_anew();

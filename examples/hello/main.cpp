@@ -15,11 +15,11 @@ int main() {
     const auto channel = context.add_shape(channel_rings);
 
     // The vertices of the arrow that lie in the channel's wall when the arrow stands at (1.5, 0.5).
-    const auto deep = context.answer(nearfield::PenetrationQuery{
-        .a = {arrow, {.translation = {1.5, 0.5}}},
-        .b = {channel},
-        .tolerance = 0.1,
-        .points = nearfield::PenetrationPoints::vertices});
+    const auto deep = context.answer(
+        nearfield::PenetrationQuery{.a = {arrow, {.translation = {1.5, 0.5}}},
+                                    .b = {channel},
+                                    .tolerance = 0.1,
+                                    .points = nearfield::PenetrationPoints::vertices});
     if (!deep) {  // a shape that was refused is named here, too
         std::puts(deep.error().text().c_str());
         return 1;

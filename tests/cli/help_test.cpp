@@ -122,8 +122,7 @@ protected:
 };
 
 TEST_F(Help, NamesCommandsAndTheirOptions) {
-    expect_names({},
-                 {"query", "scene", "bench", "simulate", "hash", "info", "--version"});
+    expect_names({}, {"query", "scene", "bench", "simulate", "hash", "info", "--version"});
     expect_names({"scene"},
                  {"groups", "nearest", "--technique", "--memory-limit", "--threads", "--json"});
     expect_names({"bench"},

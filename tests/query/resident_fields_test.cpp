@@ -10,7 +10,7 @@ constexpr std::uint64_t field_seed = 8100;
 
 TEST_F(Resident, FieldImagesHoldWhatComesBack) {
     for_each_case(field_seed, 6, [&](Random& random) {
-        for (const Technique technique : on_device) {
+        for (const Technique technique : device_techniques) {
             const PlacedPair pair(context(), any_pair(random), technique);
             SCOPED_TRACE(describe(pair.pair()));
             ResidentField field;
@@ -29,7 +29,7 @@ TEST_F(Resident, FieldImagesHoldWhatComesBack) {
 TEST_F(Resident, FieldsOfEveryFamilyAndOfSeveralTilesWithHalos) {
     int number = 0;
     for (const Pair& made : family_pairs(field_seed)) {
-        const Technique technique = on_device[static_cast<std::size_t>(number++ % 2)];
+        const Technique technique = device_techniques[static_cast<std::size_t>(number++ % 2)];
         const PlacedPair pair(context(), made, technique);
         SCOPED_TRACE(describe(made));
         DistanceFieldQuery query = field_of(pair, technique);
@@ -53,7 +53,7 @@ TEST_F(Resident, FieldsOfEveryFamilyAndOfSeveralTilesWithHalos) {
 // Alternately with features, in the same context: images that are there stay as they are.
 TEST_F(Resident, FieldOfDistancesAlone) {
     for_each_case(field_seed, 4, [&](Random& random) {
-        for (const Technique technique : on_device) {
+        for (const Technique technique : device_techniques) {
             const PlacedPair pair(context(), any_pair(random), technique);
             SCOPED_TRACE(describe(pair.pair()));
             DistanceFieldQuery query = field_of(pair, technique);
@@ -97,7 +97,7 @@ TEST_F(Resident, FieldOfManyRoundsOfWhichNothingComesBack) {
     Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     Random random(field_seed);
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         Pair shapes{
             {"coast", coast(random, 200, 0.4)}, {"holes", with_holes(random, 3)}, {}, {}, 0.003};
         const PlacedPair pair(*made, shapes, technique);

@@ -39,7 +39,8 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
     };
     const auto submit = [&](int number) {
         Batch batch;
-        DistanceFieldQuery field = field_of(pair, on_device[static_cast<std::size_t>(number % 2)]);
+        DistanceFieldQuery field =
+            field_of(pair, device_techniques[static_cast<std::size_t>(number % 2)]);
         field.b.pose.translation.x = 0.01 * number;
         PenetrationQuery depths = pair.penetration();
         depths.b.pose.translation.x = 0.01 * number;
@@ -75,7 +76,7 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
     Random random(frame_seed);
     const Rings rings = with_holes(random, 3);
     const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.01};
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         // With its own context: the samples of the intersection, most cells of its regions, exceed
         // the capacity of the first submission, and their tile batches are submitted again.
         Expected<Context> made = Context::create(host_device(), on_demand());

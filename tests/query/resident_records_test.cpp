@@ -136,7 +136,7 @@ TEST_F(Resident, RecordBoundCoversTheExtentOfBothShapes) {
     needle.a = {"needle", {{{0.0, 0.0}, {100.0, -1.0}, {100.0, 1.0}}}};
     needle.b = {"square", {{{-1.9, -1.0}, {0.1, -1.0}, {0.1, 1.0}, {-1.9, 1.0}}}};
     needle.tolerance = 0.01;
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         const PlacedPair pair(context(), needle, technique);
         PenetrationQuery query = pair.penetration(PenetrationPoints::vertices);
         query.resident = true;
@@ -152,7 +152,7 @@ TEST_F(Resident, PenetrationRecordsAreTheCpusWithinTheBound) {
     std::size_t compared = 0;
     double largest = 0.0;
     for_each_case(record_seed + 100, 12, [&](Random& random) {
-        for (const Technique technique : on_device) {
+        for (const Technique technique : device_techniques) {
             const PlacedPair pair(context(), any_pair(random), technique);
             SCOPED_TRACE(describe(pair.pair()));
             PenetrationQuery query = pair.penetration();
@@ -183,7 +183,7 @@ TEST_F(Resident, ContactRecordsAreTheCpusWithinTheBound) {
     std::size_t compared = 0;
     std::size_t of_b = 0;
     for_each_case(record_seed + 200, 14, [&](Random& random) {
-        for (const Technique technique : on_device) {
+        for (const Technique technique : device_techniques) {
             const PlacedPair pair(context(), any_pair(random), technique);
             SCOPED_TRACE(describe(pair.pair()));
             ContactQuery query = pair.contacts(1.5 * pair.tolerance());
@@ -226,7 +226,7 @@ TEST_F(Resident, NormalsAtCornersPointOut) {
     for (Corner corner : corners) {
         for (int turn = 0; turn < 2; ++turn) {
             std::reverse(corner.b.begin(), corner.b.end());
-            for (const Technique technique : on_device) {
+            for (const Technique technique : device_techniques) {
                 const PlacedPair pair(
                     context(), {{"A", {corner.a}}, {"B", {corner.b}}, {}, {}, 0.05}, technique);
                 ContactQuery query = pair.contacts(0.1);
@@ -258,7 +258,7 @@ TEST_F(Resident, RecordsOfManyRoundsSayWhereTheyBelong) {
     Random random(record_seed);
     const Rings rings = with_holes(random, 3);
     const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.0007};
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         const PlacedPair pair(*made, shapes, technique);
         PenetrationQuery query = pair.penetration();
         query.resident = true;
@@ -289,7 +289,7 @@ TEST_F(Resident, WhereNothingMeetsTheSummaryIsEmpty) {
                      {},
                      {{5.0, 0.0}, 0.0},
                      0.05};
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         const PlacedPair pair(context(), apart, technique);
         PenetrationQuery query = pair.penetration();
         query.resident = true;

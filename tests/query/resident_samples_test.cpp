@@ -118,7 +118,7 @@ protected:
     /// All kinds by both techniques, and the rasterised ones by all strategies.
     std::size_t check_all(const Pair& shapes) {
         std::size_t found = 0;
-        for (const Technique technique : on_device) {
+        for (const Technique technique : device_techniques) {
             const PlacedPair pair(context(), shapes, technique);
             for (const IntersectionKind kind : kinds_of_samples) {
                 IntersectionQuery query = pair.intersection(kind);
@@ -154,7 +154,7 @@ TEST_F(ResidentIntersections, SamplesOfEveryFamily) {
     int number = 0;
     for (const Pair& made : family_pairs(sample_seed)) {
         SCOPED_TRACE(describe(made));
-        const Technique technique = on_device[static_cast<std::size_t>(number) % 2];
+        const Technique technique = device_techniques[static_cast<std::size_t>(number) % 2];
         const PlacedPair pair(context(), made, technique);
         IntersectionQuery query =
             pair.intersection(kinds_of_samples[static_cast<std::size_t>(number++) % 3]);
@@ -173,7 +173,7 @@ TEST_F(ResidentIntersections, EdgesOfRealOutlines) {
         const double side = std::max(high.x - low.x, high.y - low.y);
         const Pose moved{{0.05 * side, 0.02 * side}, 0.0};
         const PlacedPair pair(context(), {outlines[i], outlines[i], {}, moved, side / 300},
-                              on_device[i % 2]);
+                              device_techniques[i % 2]);
         SCOPED_TRACE(outlines[i].name);
         Kept kept = keep(context(), pair.intersection(IntersectionKind::boundary_volume));
         check_kept(pair, kept);
@@ -198,7 +198,7 @@ Pair pair_of_many_rounds() {
 TEST_F(ResidentIntersections, SamplesOfManyRoundsStayInOrder) {
     Expected<Context> made = context_of_many_rounds(host_device());
     ASSERT_TRUE(made.has_value()) << made.error().text();
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         const PlacedPair pair(*made, pair_of_many_rounds(), technique);
         for (const IntersectionKind kind :
              {IntersectionKind::volume_volume, IntersectionKind::boundary_volume}) {
@@ -211,7 +211,7 @@ TEST_F(ResidentIntersections, SamplesOfManyRoundsStayInOrder) {
 }
 
 TEST_F(ResidentIntersections, WhatComesBackAndWhatStaysAreAskedForApart) {
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         const PlacedPair pair(context(), pair_of_many_rounds(), technique);
         for (const IntersectionKind kind : kinds_of_samples) {
             IntersectionQuery query = pair.intersection(kind);
@@ -242,7 +242,7 @@ TEST_F(ResidentIntersections, WhereNothingMeetsTheSummaryIsEmpty) {
     const NamedRings corner{"corner", {{{0.0, 0.0}, {3.0, 0.0}, {0.0, 3.0}}}};
     for (const Pair& apart : {Pair{square, square, {}, {{5.0, 0.0}, 0.0}, 0.05},
                               Pair{corner, square, {}, {{1.9, 1.9}, 0.0}, 0.05}}) {
-        for (const Technique technique : on_device) {
+        for (const Technique technique : device_techniques) {
             const PlacedPair pair(context(), apart, technique);
             for (const IntersectionKind kind : kinds_of_samples) {
                 Kept kept = keep(context(), pair.intersection(kind));
@@ -308,7 +308,7 @@ TEST_F(ResidentIntersections, RecordedIntoAHostsCommandsTheyAreTheSame) {
     ASSERT_TRUE(made.has_value()) << made.error().text();
     test_support::HostFrames host(host_device(), 1);
     std::uint64_t number = 0;
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         const PlacedPair pair(*made, pair_of_many_rounds(), technique);
         for (const IntersectionKind kind : kinds_of_samples) {
             IntersectionQuery query = pair.intersection(kind);

@@ -122,7 +122,7 @@ TEST_F(ResidentTarget, FieldsEqualThoseInOwnImages) {
     for_each_case(target_seed, 5, [&](Random& random) {
         const PlacedPair pair(made(), any_pair(random), Technique::raster);
         SCOPED_TRACE(describe(pair.pair()));
-        for (const Technique technique : on_device) {
+        for (const Technique technique : device_techniques) {
             DistanceFieldQuery query = field_of(pair, technique);
             query.values = query.features = false;
             const FieldWords own = own_words(query);
@@ -228,7 +228,7 @@ TEST_F(ResidentTarget, RecordsAndSamplesEqualThoseInTheOwnBuffer) {
     Random random(target_seed);
     const Pair shapes{
         {"coast", coast(random, 120, 0.5)}, {"holes", with_holes(random, 3)}, {}, {}, 0.03};
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         const PlacedPair pair(made(), shapes, technique);
         PenetrationQuery depths = pair.penetration();
         ContactQuery contacts = pair.contacts(0.05);

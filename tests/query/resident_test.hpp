@@ -10,7 +10,7 @@
 
 namespace nearfield::test {
 
-inline constexpr std::array<Technique, 2> on_device{Technique::raster, Technique::compute};
+inline constexpr std::array<Technique, 2> device_techniques{Technique::raster, Technique::compute};
 
 /// Tests of resident outputs.
 class Resident : public QueryTest {

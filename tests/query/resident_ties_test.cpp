@@ -54,7 +54,7 @@ protected:
 };
 
 TEST_F(ResidentTies, OfEquallyDeepPointsInSeveralBlocksTheSummaryNamesTheFirst) {
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         // Its lower side is 0.5 below B's upper side, from one end to the other.
         const PlacedPair pair(context(),
@@ -69,7 +69,7 @@ TEST_F(ResidentTies, OfEquallyDeepPointsInSeveralBlocksTheSummaryNamesTheFirst) 
 }
 
 TEST_F(ResidentTies, OfEquallyCloseContactsInSeveralBlocksTheSummaryNamesTheFirst) {
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         const PlacedPair pair(context(),
                               {{"A", rectangle({-4.0, 0.0625}, {4.0, 3.0})},

@@ -272,7 +272,7 @@ TEST_P(WorldQuestions, OfTwoWorldsInTurns) {
 }
 
 TEST_P(WorldQuestions, DoNotDependOnJobs) {
-    Settings settings = drawing();
+    Settings settings = on_demand();
     settings.jobs = {nullptr, 3, run_on_threads};
     Expected<Context> context = Context::create(host_device(), settings);
     ASSERT_TRUE(context.has_value()) << context.error().text();
@@ -391,12 +391,12 @@ TEST_F(WorldQuestionsByDevice, AreRefusedWithoutMemoryOrCompute) {
         EXPECT_EQ(hits.back().parameter, 1.0 / 3.0);
         return status;
     };
-    Settings settings = drawing();
+    Settings settings = on_demand();
     settings.memory_limit = 1U << 20U;
     Expected<Context> small = Context::create(host_device(), settings);
     ASSERT_TRUE(small.has_value()) << small.error().text();
     EXPECT_EQ(cast(*small).code(), StatusCode::too_large);
-    settings = drawing();
+    settings = on_demand();
     settings.techniques.compute = false;
     Expected<Context> drawing_only = Context::create(host_device(), settings);
     ASSERT_TRUE(drawing_only.has_value()) << drawing_only.error().text();
