@@ -36,7 +36,8 @@ public:
     explicit PairsOfDevice(Way way)
         : DeviceWorld(way == Way::in_parts ? 1U << 21U : 1U << 30U),
           way_(way),
-          table_(PenetrationQuery{.tolerance = 0.05, .resident = are_resident()}) {
+          table_(PenetrationQuery{.tolerance = 0.05, .resident = are_resident()},
+                 nearfield::test::on_device) {
         driver().let_shaders_find(
             {passes::ComputeLayout::output, pairs_found, word_of_pairs, true});
         poses_.buffer = driver().make_buffer();

@@ -57,8 +57,9 @@ public:
         : technique_(technique),
           before_(driver_.make_semaphore(true)),
           after_(driver_.make_semaphore(false)) {
-        target_.signed_distance = {driver_.make_image(),
-                                   driver_.make_image_view(),
+        const VkImage image = driver_.make_image();
+        target_.signed_distance = {image,
+                                   driver_.make_view(image),
                                    VK_FORMAT_R32_SFLOAT,
                                    {4096, 4096},
                                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};

@@ -127,9 +127,11 @@ VkImage MockDriver::make_image() {
     return image;
 }
 
-VkImageView MockDriver::make_image_view() {
+VkImageView MockDriver::make_view(VkImage image) {
     const UnwatchedAllocations here;
-    return state_->make<VkImageView>(the_host, state_->device);
+    const auto view = state_->make<VkImageView>(the_host, state_->device);
+    state_->objects[number(view)].needs[0] = number(image);
+    return view;
 }
 
 VkBuffer MockDriver::make_buffer() {

@@ -62,7 +62,8 @@ public:
     [[nodiscard]] bool is_signalled(VkSemaphore semaphore) const;
     /// An image of the host, with memory.
     [[nodiscard]] VkImage make_image();
-    [[nodiscard]] VkImageView make_image_view();
+    /// A view of the host's of such an image.
+    [[nodiscard]] VkImageView make_view(VkImage image);
     [[nodiscard]] VkBuffer make_buffer();
     /// Sets the timeline semaphore support that host() reports.
     void enable_timeline_semaphores(bool enabled = true);
