@@ -81,7 +81,7 @@ struct ExportSamples {
     graph::Handle samples;  ///< with their summary
 };
 
-/// After all these, the header of each output (ResidentHeaderData).
+/// After all these, the header of each output (HeaderData).
 struct ExportHeaders {
     ExportHeaders(const gpu::Device& device, const ComputeLayout& layout);
 

@@ -88,7 +88,7 @@ vec4 own_box(uint a) {
 }
 
 // Returns the number of pairs with instance `a` first, or max_pairs where the walk takes too long.
-uint find_pairs(uint a) {
+uint find_overlapping_boxes(uint a) {
     Partners partners = partners_of(a);
     if (partners.count == 0u) {
         return 0u;

@@ -29,7 +29,7 @@ void main() {
     find_levels();
     uint a = push.first + dispatched_index();
     bool exists = a < push.instances;
-    uint count = exists ? find_pairs(a) : 0u;
+    uint count = exists ? find_overlapping_boxes(a) : 0u;
     uint items = exists ? items_of(a, count) : 0u;
     if (max(count, items) >= max_pairs) {
         scratch[has_too_many_pairs] = 1u;

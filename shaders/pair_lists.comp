@@ -37,7 +37,7 @@ void main() {
         target = added(list.x, pairs);
         scratch_units[unit] = uvec4(target, added(list.y, items), list.z, 0u);
         if (list.z > kept_pairs) {
-            find_pairs(a);
+            find_overlapping_boxes(a);
         } else {
             for (uint i = 0u; i < list.z; ++i) {
                 take_pair(a, scratch_word(kept_words(a) + i), i);

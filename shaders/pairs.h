@@ -62,8 +62,8 @@ struct PairRowData {
     uint b NEARFIELD_DEFAULT(0);
     uint count NEARFIELD_DEFAULT(0);  // of penetrating points or contacts, or 1; and flags
     // Those that were found, among which they are: consecutive ones
-    uint first_record NEARFIELD_DEFAULT(0);
-    uint record_count NEARFIELD_DEFAULT(0);
+    uint first_point NEARFIELD_DEFAULT(0);
+    uint point_count NEARFIELD_DEFAULT(0);
     uint edge NEARFIELD_DEFAULT(0);  // the deepest point, as FoundPointData has it
     uint number NEARFIELD_DEFAULT(0);
     uint word NEARFIELD_DEFAULT(0);

@@ -52,19 +52,19 @@ public:
     /// The resident output of a query of a batch in flight. Throws as collect() does, and if the
     /// query has none.
     template <class Query>
-    [[nodiscard]] auto resident(Ticket ticket, QueryHandle<Query> handle) {
+    [[nodiscard]] auto on_device(Ticket ticket, QueryHandle<Query> handle) {
         const Frame& frame = require(ticket);
-        return in_slot(frame, frame.runner.resident(handle));
+        return in_slot(frame, frame.runner.on_device(handle));
     }
-    /// What resident() will return for such a query of such a batch, by frame. Throws
-    /// StatusException: (not_ready) if a batch is in flight, and as submit() and resident() do.
+    /// What on_device() will return for such a query of such a batch, by frame. Throws
+    /// StatusException: (not_ready) if a batch is in flight, and as submit() and on_device() do.
     template <class Query>
-    [[nodiscard]] auto resident_layout(const Batch& batch, QueryHandle<Query> handle) {
-        require_none_in_flight("resident_layout");
-        std::vector<decltype(frames_.front()->runner.resident(handle))> layout;
+    [[nodiscard]] auto layout_on_device(const Batch& batch, QueryHandle<Query> handle) {
+        require_none_in_flight("layout_on_device");
+        std::vector<decltype(frames_.front()->runner.on_device(handle))> layout;
         for (const auto& frame : frames_) {
             reserve(*frame, batch);
-            layout.push_back(in_slot(*frame, frame->runner.resident(handle)));
+            layout.push_back(in_slot(*frame, frame->runner.on_device(handle)));
         }
         return layout;
     }

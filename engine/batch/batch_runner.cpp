@@ -159,10 +159,10 @@ void BatchRunner::record(std::span<const AnyQuery> queries, const plan::FindShap
 }
 
 template <class Query>
-void BatchRunner::require_resident(QueryHandle<Query> handle) const {
+void BatchRunner::require_on_device(QueryHandle<Query> handle) const {
     const auto refuse = [&](const std::string& why) {
         throw StatusException({StatusCode::invalid_query,
-                               "resident: query " + std::to_string(handle.index) + " " + why});
+                               "on_device: query " + std::to_string(handle.index) + " " + why});
     };
     if (handle.batch != results_.batch && handle.batch != 0) {
         refuse("is of another batch, or of the same one before it was cleared");
@@ -173,8 +173,8 @@ void BatchRunner::require_resident(QueryHandle<Query> handle) const {
     const auto* const query = std::get_if<Query>(&queries_[handle.index]);
     if (query == nullptr) {
         refuse("is of another kind than its handle says");
-    } else if (!query->resident) {
-        refuse("did not ask for results that stay on the device (resident)");
+    } else if (!query->on_device) {
+        refuse("did not ask for results that stay on the device (on_device)");
     }
     const Status& status =
         std::visit([](const auto& result) -> const Status& { return result.status; },
@@ -184,20 +184,20 @@ void BatchRunner::require_resident(QueryHandle<Query> handle) const {
     }
 }
 
-template void BatchRunner::require_resident(QueryHandle<PenetrationQuery>) const;
-template void BatchRunner::require_resident(QueryHandle<ContactQuery>) const;
+template void BatchRunner::require_on_device(QueryHandle<PenetrationQuery>) const;
+template void BatchRunner::require_on_device(QueryHandle<ContactQuery>) const;
 
-ResidentField BatchRunner::resident(QueryHandle<DistanceFieldQuery> handle) const {
-    require_resident(handle);
+FieldOnDevice BatchRunner::on_device(QueryHandle<DistanceFieldQuery> handle) const {
+    require_on_device(handle);
     return slot_->resident().field(place_of(resident_.fields, handle.index));
 }
 
-ResidentSamples BatchRunner::resident(QueryHandle<IntersectionQuery> handle) const {
-    require_resident(handle);
+SamplesOnDevice BatchRunner::on_device(QueryHandle<IntersectionQuery> handle) const {
+    require_on_device(handle);
     return slot_->resident().samples(place_of(resident_.samples, handle.index));
 }
 
-ResidentRecords BatchRunner::resident_records(std::uint32_t query) const {
+PointsOnDevice BatchRunner::resident_records(std::uint32_t query) const {
     return slot_->resident().records(place_of(resident_.records, query));
 }
 

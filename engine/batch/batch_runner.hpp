@@ -83,11 +83,11 @@ public:
 
     /// The resident outputs of a query, after submit(). Throws a StatusException that names the
     /// reason if there are none.
-    [[nodiscard]] ResidentField resident(QueryHandle<DistanceFieldQuery> handle) const;
-    [[nodiscard]] ResidentSamples resident(QueryHandle<IntersectionQuery> handle) const;
+    [[nodiscard]] FieldOnDevice on_device(QueryHandle<DistanceFieldQuery> handle) const;
+    [[nodiscard]] SamplesOnDevice on_device(QueryHandle<IntersectionQuery> handle) const;
     template <class Query>
-    [[nodiscard]] ResidentRecords resident(QueryHandle<Query> handle) const {
-        require_resident(handle);
+    [[nodiscard]] PointsOnDevice on_device(QueryHandle<Query> handle) const {
+        require_on_device(handle);
         return resident_records(handle.index);
     }
 
@@ -120,8 +120,8 @@ private:
     void take_found_pairs(bool was_recorded);
     void decode(std::uint32_t number);
     template <class Query>
-    void require_resident(QueryHandle<Query> handle) const;
-    [[nodiscard]] ResidentRecords resident_records(std::uint32_t query) const;
+    void require_on_device(QueryHandle<Query> handle) const;
+    [[nodiscard]] PointsOnDevice resident_records(std::uint32_t query) const;
 
     Planning* planning_;
     render::Renderer* renderer_;

@@ -38,10 +38,9 @@ void check_structure(const HostDevice& host) {
     check_both("queue_access", access.lock != nullptr, "lock", access.unlock != nullptr, "unlock");
     const MemoryFunctions& memory = host.memory;
     check_both("memory", memory.allocate != nullptr, "allocate", memory.free != nullptr, "free");
-    if (host.resident_families == nullptr && host.resident_family_count > 0) {
-        refuse_setting("HostDevice::resident_family_count is " +
-                       std::to_string(host.resident_family_count) +
-                       ", and resident_families is null");
+    if (host.reader_families == nullptr && host.reader_family_count > 0) {
+        refuse_setting("HostDevice::reader_family_count is " +
+                       std::to_string(host.reader_family_count) + ", and reader_families is null");
     }
     if (host.completion_by_timeline && !host.timeline_semaphore) {
         refuse_setting(

@@ -116,11 +116,11 @@ Status Context::remove_shape(ShapeHandle shape) {
     return status.ok() ? result : status;
 }
 
-Expected<std::span<const InstancePair>> Context::find_pairs(std::span<const Instance> instances,
-                                                            double reach) {
+Expected<std::span<const InstancePair>> Context::find_overlapping_boxes(
+    std::span<const Instance> instances, double reach) {
     Expected<std::span<const InstancePair>> pairs = std::span<const InstancePair>();
     Status status = implementation_->unless_lost(
-        [&] { pairs = implementation_->find_pairs(instances, reach); });
+        [&] { pairs = implementation_->find_overlapping_boxes(instances, reach); });
     return status.ok() ? pairs : Expected<std::span<const InstancePair>>(status);
 }
 
@@ -154,40 +154,40 @@ Status Context::collect(Ticket ticket, Results& results, const Limits& limits) {
     return call_within(limits, [&] { return implementation_->collect(ticket, results); });
 }
 
-Expected<ResidentField> Context::resident(Ticket ticket, QueryHandle<DistanceFieldQuery> query) {
-    return implementation_->resident<ResidentField>(ticket, query);
+Expected<FieldOnDevice> Context::on_device(Ticket ticket, QueryHandle<DistanceFieldQuery> query) {
+    return implementation_->on_device<FieldOnDevice>(ticket, query);
 }
 
-Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<PenetrationQuery> query) {
-    return implementation_->resident<ResidentRecords>(ticket, query);
+Expected<PointsOnDevice> Context::on_device(Ticket ticket, QueryHandle<PenetrationQuery> query) {
+    return implementation_->on_device<PointsOnDevice>(ticket, query);
 }
 
-Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<ContactQuery> query) {
-    return implementation_->resident<ResidentRecords>(ticket, query);
+Expected<PointsOnDevice> Context::on_device(Ticket ticket, QueryHandle<ContactQuery> query) {
+    return implementation_->on_device<PointsOnDevice>(ticket, query);
 }
 
-Expected<ResidentSamples> Context::resident(Ticket ticket, QueryHandle<IntersectionQuery> query) {
-    return implementation_->resident<ResidentSamples>(ticket, query);
+Expected<SamplesOnDevice> Context::on_device(Ticket ticket, QueryHandle<IntersectionQuery> query) {
+    return implementation_->on_device<SamplesOnDevice>(ticket, query);
 }
 
-Expected<std::vector<ResidentField>> Context::resident_layout(
+Expected<std::vector<FieldOnDevice>> Context::layout_on_device(
     const Batch& batch, QueryHandle<DistanceFieldQuery> query) {
-    return implementation_->resident_layout<ResidentField>(batch, query);
+    return implementation_->layout_on_device<FieldOnDevice>(batch, query);
 }
 
-Expected<std::vector<ResidentRecords>> Context::resident_layout(
+Expected<std::vector<PointsOnDevice>> Context::layout_on_device(
     const Batch& batch, QueryHandle<PenetrationQuery> query) {
-    return implementation_->resident_layout<ResidentRecords>(batch, query);
+    return implementation_->layout_on_device<PointsOnDevice>(batch, query);
 }
 
-Expected<std::vector<ResidentRecords>> Context::resident_layout(const Batch& batch,
+Expected<std::vector<PointsOnDevice>> Context::layout_on_device(const Batch& batch,
                                                                 QueryHandle<ContactQuery> query) {
-    return implementation_->resident_layout<ResidentRecords>(batch, query);
+    return implementation_->layout_on_device<PointsOnDevice>(batch, query);
 }
 
-Expected<std::vector<ResidentSamples>> Context::resident_layout(
+Expected<std::vector<SamplesOnDevice>> Context::layout_on_device(
     const Batch& batch, QueryHandle<IntersectionQuery> query) {
-    return implementation_->resident_layout<ResidentSamples>(batch, query);
+    return implementation_->layout_on_device<SamplesOnDevice>(batch, query);
 }
 
 void Context::trim() noexcept {

@@ -52,7 +52,7 @@ Settings without_device(Settings settings) {
 }
 
 /// Without the raster where the queue family does not draw.
-Settings on_device(Settings settings, const gpu::Device& device) {
+Settings settings_for(Settings settings, const gpu::Device& device) {
     settings.techniques.raster = settings.techniques.raster && device.draws();
     return settings;
 }
@@ -84,7 +84,7 @@ Context::Implementation::Implementation(std::unique_ptr<gpu::HeadlessDevice> own
                                         const HostDevice& host, const Settings& settings)
     : own_device_(std::move(own)),
       device_(std::make_unique<gpu::Device>(host)),
-      settings_(on_device(settings, *device_)),
+      settings_(settings_for(settings, *device_)),
       machinery_(make_machinery()),
       lost_device_(lost_device()) {
     device_->log(LogLevel::information, [&] {
@@ -122,10 +122,11 @@ std::unique_ptr<Context::Implementation::Machinery> Context::Implementation::mak
     return std::make_unique<Machinery>(device_.get(), settings_, shapes_);
 }
 
-Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
+Expected<std::span<const InstancePair>> Context::Implementation::find_overlapping_boxes(
     std::span<const Instance> instances, double reach) {
     if (!(reach >= 0.0 && reach <= largest_coordinate)) {
-        return Status(StatusCode::invalid_query, "find_pairs: the reach is " + plan::number(reach) +
+        return Status(StatusCode::invalid_query, "find_overlapping_boxes: the reach is " +
+                                                     plan::number(reach) +
                                                      "; it must be a finite number of at least 0");
     }
     bounds_origins_.resize(std::max(bounds_origins_.size(), instances.size()));
@@ -136,8 +137,8 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
                             ? shapes_.errors().unknown("its shape", instances[i].shape)
                             : plan::check_pose(instances[i].pose, "the instance");
         if (!status.ok()) {
-            return Status(status.code(),
-                          "find_pairs: instance " + std::to_string(i) + ": " + status.message());
+            return Status(status.code(), "find_overlapping_boxes: instance " + std::to_string(i) +
+                                             ": " + status.message());
         }
         if (const BoundsOrigin origin{polygon, polygon->revision(), instances[i].pose};
             !(bounds_origins_[i] == origin)) {

@@ -53,8 +53,8 @@ public:
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
 
-    Expected<std::span<const InstancePair>> find_pairs(std::span<const Instance> instances,
-                                                       double reach);
+    Expected<std::span<const InstancePair>> find_overlapping_boxes(
+        std::span<const Instance> instances, double reach);
     Status run(const Batch& batch, Results& results);
     Expected<Ticket> submit(const Batch& batch, const Submission& submission);
     Expected<Ticket> record(const Batch& batch, const Recording& recording);
@@ -66,19 +66,19 @@ public:
     bool is_ready(Ticket ticket) { return lost_ || machinery_->ring.is_ready(ticket); }
     Status collect(Ticket ticket, Results& results);
 
-    template <class Resident, class Query>
-    Expected<Resident> resident(Ticket ticket, QueryHandle<Query> query) {
-        Resident result;
-        Status status = unless_lost([&] { result = machinery_->ring.resident(ticket, query); });
-        return status.ok() ? Expected<Resident>(result) : status;
+    template <class Output, class Query>
+    Expected<Output> on_device(Ticket ticket, QueryHandle<Query> query) {
+        Output result;
+        Status status = unless_lost([&] { result = machinery_->ring.on_device(ticket, query); });
+        return status.ok() ? Expected<Output>(result) : status;
     }
 
-    template <class Resident, class Query>
-    Expected<std::vector<Resident>> resident_layout(const Batch& batch, QueryHandle<Query> query) {
-        std::vector<Resident> layout;
+    template <class Output, class Query>
+    Expected<std::vector<Output>> layout_on_device(const Batch& batch, QueryHandle<Query> query) {
+        std::vector<Output> layout;
         Status status =
-            unless_lost([&] { layout = machinery_->ring.resident_layout(batch, query); });
-        return status.ok() ? Expected<std::vector<Resident>>(std::move(layout)) : status;
+            unless_lost([&] { layout = machinery_->ring.layout_on_device(batch, query); });
+        return status.ok() ? Expected<std::vector<Output>>(std::move(layout)) : status;
     }
 
     void trim() noexcept;
@@ -146,7 +146,7 @@ private:
     batch::ShapeStore shapes_;
     geometry::GatheredRings gathered_rings_;
     localize::BroadPhase broad_phase_;
-    // Of the instances of find_pairs(), by position; they stay while their origins do.
+    // Of the instances of find_overlapping_boxes(), by position; they stay while their origins do.
     std::vector<localize::Bounds> bounds_;
     std::vector<BoundsOrigin> bounds_origins_;
     std::vector<localize::BroadPhase::Pair> near_pairs_;

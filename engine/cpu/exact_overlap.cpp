@@ -32,7 +32,7 @@ std::span<const Tile> band_of(std::span<const Tile> tiles, std::size_t first) {
 void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
                           plan::SimplifiedShapes& shapes, IntersectionResult& result) {
     const auto& query = std::get<IntersectionQuery>(*planned.query);
-    const bool with_runs = query.records && query.kind != IntersectionKind::volume_volume;
+    const bool with_runs = !query.summary_only && query.kind != IntersectionKind::volume_volume;
     const auto& [first_tile, tile_count] = std::get<plan::PlannedOverlap>(planned.work);
     const auto tiles = std::span(plan.cpu_tiles).subspan(first_tile, tile_count);
     for (std::size_t first = 0; first < tiles.size();) {
@@ -44,11 +44,11 @@ void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
             checkpoint();
             find_common(planned, tile, with_runs, shapes);
             records::add_summary(tile, summarize(), result);
-            if (query.records) {
+            if (!query.summary_only) {
                 append_samples(planned, tile, band.size() == 1 ? result.samples : samples_);
             }
         }
-        if (query.records && band.size() > 1) {
+        if (!query.summary_only && band.size() > 1) {
             append_band(band, result);
         }
     }

@@ -34,7 +34,7 @@ void PointPenetration::answer(const PenetrationQuery& query, const TransformedEd
                               const TransformedEdges& b, const Reverse* reverse,
                               PenetrationResult& result) {
     const bool are_near = a.box.intersects(b.box);
-    if (query.records && are_near) {
+    if (!query.summary_only && are_near) {
         result.regions.push_back(
             plan::region_of(plan::Grid::covering(a.box.intersection(b.box), result.cell)));
     }
@@ -49,7 +49,7 @@ void PointPenetration::answer(const PenetrationQuery& query, const TransformedEd
     }
     const double touching = query.tolerance * plan::touching_depth;
     const double margin = query.tolerance * plan::uniqueness_margin;
-    if (query.records) {
+    if (!query.summary_only) {
         nearest_.find(inside_.arrays(), b, margin);
         write_records(touching, b, result);
     } else {
@@ -120,20 +120,20 @@ void PointPenetration::write_records(double touching, const simd::TransformedEdg
                nearest.edge[i],
                nearest.parameter[i],
                nearest_.is_unique(i)},
-              b, result.records.emplace_back());
-        if (depth > result.records[deepest].depth) {
-            deepest = result.records.size() - 1;
+              b, result.points.emplace_back());
+        if (depth > result.points[deepest].depth) {
+            deepest = result.points.size() - 1;
         }
     }
-    result.count = static_cast<std::uint32_t>(result.records.size());
+    result.count = static_cast<std::uint32_t>(result.points.size());
     if (result.count > 0) {
-        result.deepest = result.records[deepest];
+        result.deepest = result.points[deepest];
     }
 }
 
 void PointPenetration::write(const WayOut& way, const simd::TransformedEdges& b,
-                             PenetrationRecord& record) {
-    record.point = geometry::to_public(way.point);
+                             PenetratingPoint& record) {
+    record.position = geometry::to_public(way.point);
     record.depth = way.depth;
     record.direction = geometry::to_public((way.exit - way.point) / way.depth);
     record.nearest = geometry::to_public(way.exit);

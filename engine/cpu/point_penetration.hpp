@@ -70,8 +70,7 @@ private:
                                  const narrowphase::NearestPoint& nearest, double margin);
     /// Writes the records. Precondition: nearest_ has the points nearest to inside_.
     void write_records(double touching, const simd::TransformedEdges& b, PenetrationResult& result);
-    static void write(const WayOut& way, const simd::TransformedEdges& b,
-                      PenetrationRecord& record);
+    static void write(const WayOut& way, const simd::TransformedEdges& b, PenetratingPoint& record);
 
     narrowphase::Boundary boundary_;  // of B, if it has many edges
     narrowphase::OverlapTest overlap_test_;

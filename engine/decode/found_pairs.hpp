@@ -45,7 +45,7 @@ public:
             return {};
         }
         const Found& found = queries_[query];
-        return {.found = {found.points + found.row->first_record, found.row->record_count}};
+        return {.found = {found.points + found.row->first_point, found.row->point_count}};
     }
 
 private:

@@ -82,29 +82,29 @@ Device::Device(const HostDevice& host)
         queue_families(functions_.vkGetPhysicalDeviceQueueFamilyProperties, host.physical_device);
     timestamp_bits_ = families[host.queue_family].timestampValidBits;
     queue_flags_ = families[host.queue_family].queueFlags;
-    set_resident_families(families.size());
+    set_reader_families(families.size());
 }
 
-void Device::set_resident_families(std::size_t family_count) {
-    resident_families_.push_back(host_.queue_family);
-    for (std::uint32_t i = 0; i < host_.resident_family_count; ++i) {
-        const std::uint32_t family = host_.resident_families[i];
+void Device::set_reader_families(std::size_t family_count) {
+    reader_families_.push_back(host_.queue_family);
+    for (std::uint32_t i = 0; i < host_.reader_family_count; ++i) {
+        const std::uint32_t family = host_.reader_families[i];
         if (family >= family_count) {
             throw StatusException({StatusCode::invalid_settings,
-                                   "HostDevice::resident_families[" + std::to_string(i) + "] is " +
+                                   "HostDevice::reader_families[" + std::to_string(i) + "] is " +
                                        std::to_string(family) + ", and device '" + name_ +
                                        "' has " + std::to_string(family_count) +
                                        " queue families"});
         }
-        if (std::find(resident_families_.begin(), resident_families_.end(), family) ==
-            resident_families_.end()) {
-            resident_families_.push_back(family);
+        if (std::find(reader_families_.begin(), reader_families_.end(), family) ==
+            reader_families_.end()) {
+            reader_families_.push_back(family);
         }
     }
-    if (resident_families_.size() == 1) {
-        resident_families_.clear();
+    if (reader_families_.size() == 1) {
+        reader_families_.clear();
     }
-    host_.resident_families = nullptr;  // borrowed for the constructor
+    host_.reader_families = nullptr;  // borrowed for the constructor
 }
 
 void Device::load_instance_functions(std::vector<std::string>& missing) {

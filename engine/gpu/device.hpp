@@ -76,8 +76,8 @@ public:
     [[nodiscard]] bool draws() const { return (queue_flags_ & VK_QUEUE_GRAPHICS_BIT) != 0; }
     /// All queue families that use resident results, without repetition; empty if only
     /// queue_family() does.
-    [[nodiscard]] const std::vector<std::uint32_t>& resident_families() const {
-        return resident_families_;
+    [[nodiscard]] const std::vector<std::uint32_t>& reader_families() const {
+        return reader_families_;
     }
 #ifdef NEARFIELD_SHADER_RELOAD
     [[nodiscard]] ShaderWords& shader_words() const {
@@ -159,7 +159,7 @@ private:
     void load_instance_functions(std::vector<std::string>& missing);
     void load_device_functions(std::vector<std::string>& missing);
     /// Throws StatusException (invalid_settings) if the device does not have one of the host's.
-    void set_resident_families(std::size_t family_count);
+    void set_reader_families(std::size_t family_count);
 
     HostDevice host_;
     std::optional<VkAllocationCallbacks> allocator_;
@@ -177,7 +177,7 @@ private:
     VkFormat gradient_format_ = VK_FORMAT_UNDEFINED;
     std::uint32_t timestamp_bits_ = 0;
     VkQueueFlags queue_flags_ = 0;
-    std::vector<std::uint32_t> resident_families_;
+    std::vector<std::uint32_t> reader_families_;
 };
 
 /// Throws StatusException (device_lost, out_of_memory or device_error) unless the result is a

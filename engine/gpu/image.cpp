@@ -44,7 +44,7 @@ void KeptImage::create_image(VkExtent2D extent) {
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage =
         VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    share(info, device_->resident_families());
+    share(info, device_->reader_families());
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     image_ = make_object(*device_, info, name_, name_);
 }

@@ -10,7 +10,7 @@ namespace nearfield::gpu {
 
 /// A colour image with memory of its own and a view of all of it, which only grows: compute shaders
 /// write it, the library's user samples it and copies from it. Shared by
-/// Device::resident_families().
+/// Device::reader_families().
 class KeptImage {
 public:
     KeptImage(const Device& device, VkFormat format, std::string name);

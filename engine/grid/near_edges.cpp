@@ -177,7 +177,7 @@ void find_nearest(const EdgeList& all, const Block& block, BlockScratch& scratch
                                   edge);
         }
         // A second point as near up to the margin is a rival if it lies farther from the first than
-        // one straight wall explains (PenetrationRecord::unique); far from the boundary the margin
+        // one straight wall explains (PenetratingPoint::unique); far from the boundary the margin
         // is the resolution of single precision.
         const Vector distance = hn::Sqrt(least);
         const Vector margin =

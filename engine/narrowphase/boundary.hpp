@@ -16,7 +16,7 @@ struct NearestPoint {
     geometry::NearestOnSegment on_edge;
 };
 
-/// Implements PenetrationRecord::unique: true if a point `other` of an edge makes the nearest one
+/// Implements PenetratingPoint::unique: true if a point `other` of an edge makes the nearest one
 /// not unique. Both are at most `limit` away.
 [[nodiscard]] inline bool is_rival(const geometry::NearestOnSegment& other,
                                    const geometry::NearestOnSegment& nearest, double limit) {
@@ -51,7 +51,7 @@ public:
                                        std::uint32_t first_guess = 0) const;
 
     /// False if another boundary point is as near to `point` as `nearest`, up to `margin`, and
-    /// farther from `nearest` than one straight wall explains (PenetrationRecord::unique).
+    /// farther from `nearest` than one straight wall explains (PenetratingPoint::unique).
     [[nodiscard]] bool is_unique(const geometry::Vector& point, const NearestPoint& nearest,
                                  double margin);
 

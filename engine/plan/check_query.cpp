@@ -92,7 +92,7 @@ Status check_field(const DistanceFieldQuery& query) {
         return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
     }
     if (!query.values && !query.features && !query.gradients && query.points.empty() &&
-        !query.resident) {
+        !query.on_device) {
         return invalid(
             "the distance field asks for nothing: neither for values, features or gradients at "
             "cells nor for points, nor for anything that stays on the device");
@@ -216,9 +216,9 @@ Status check_query(const ContactQuery& query, const AvailableTechniques& availab
     if (query.normals != ContactNormals::analytic && query.normals != ContactNormals::gradient) {
         return no_enumerator("the normals are", value_of(query.normals));
     }
-    if (query.resident && query.normals == ContactNormals::gradient) {
+    if (query.on_device && query.normals == ContactNormals::gradient) {
         return invalid(
-            "contacts that stay on the device (resident) have analytic normals; gradient normals "
+            "contacts that stay on the device (on_device) have analytic normals; gradient normals "
             "are known only once the batch is collected");
     }
     return is_length(query.contact_distance)

@@ -61,7 +61,7 @@ Status no_layout(std::string_view name, VkImageLayout layout, const char* when,
 }
 
 /// `when`: "before" or "after".
-Status check_layout(const ResidentImageTarget& target, VkImageLayout layout, std::string_view name,
+Status check_layout(const ImageTarget& target, VkImageLayout layout, std::string_view name,
                     const char* when) {
     const auto* const known = std::find_if(layouts.begin(), layouts.end(),
                                            [=](const Layout& one) { return one.layout == layout; });
@@ -90,7 +90,7 @@ Status check_states(const TargetState& before, const TargetState& after, std::st
     return status.ok() ? check_state(after, name, "after") : status;
 }
 
-Status check_image(const ResidentImageTarget& target, VkFormat format, std::string_view name) {
+Status check_image(const ImageTarget& target, VkFormat format, std::string_view name) {
     if (target.format != format) {
         return refused(
             name,
@@ -103,7 +103,7 @@ Status check_image(const ResidentImageTarget& target, VkFormat format, std::stri
                                  ", which lacks VK_IMAGE_USAGE_STORAGE_BIT");
     }
     if (target.view == VK_NULL_HANDLE) {
-        return refused(name, "has no view to write through (ResidentImageTarget::view)");
+        return refused(name, "has no view to write through (ImageTarget::view)");
     }
     if (Status status = check_states(target.before, target.after, name); !status.ok()) {
         return status;
@@ -119,7 +119,7 @@ Status check_image(const ResidentImageTarget& target, VkFormat format, std::stri
     return check_layout(target, target.after.layout, name, "after");
 }
 
-Status check_size(const ResidentImageTarget& target, std::string_view name, std::uint64_t width,
+Status check_size(const ImageTarget& target, std::string_view name, std::uint64_t width,
                   std::uint64_t height) {
     const auto [across, up] = target.extent;
     if (target.image == VK_NULL_HANDLE || (width <= across && height <= up)) {
@@ -161,7 +161,7 @@ void Targets::drop(std::uint32_t query) {
     }
 }
 
-Status Targets::add_image(const ResidentImageTarget& target, VkFormat format, std::string_view name,
+Status Targets::add_image(const ImageTarget& target, VkFormat format, std::string_view name,
                           std::uint32_t query) {
     if (target.image == VK_NULL_HANDLE) {
         return {};
@@ -179,11 +179,11 @@ Status Targets::add_image(const ResidentImageTarget& target, VkFormat format, st
     return {};
 }
 
-Status Targets::add(const ResidentFieldTarget& target, bool has_features, std::uint32_t query) {
+Status Targets::add(const FieldTarget& target, bool has_features, std::uint32_t query) {
     if (!has_features && target.feature.image != VK_NULL_HANDLE) {
         return refused(feature_name,
                        "is not null, and the query asks for none of these to stay "
-                       "(DistanceFieldQuery::resident_features)");
+                       "(DistanceFieldQuery::features_on_device)");
     }
     Status status =
         add_image(target.signed_distance, VK_FORMAT_R32_SFLOAT, signed_distance_name, query);
@@ -191,9 +191,9 @@ Status Targets::add(const ResidentFieldTarget& target, bool has_features, std::u
                        : status;
 }
 
-Status Targets::add(const ResidentBufferTarget& target, std::uint32_t query) {
+Status Targets::add(const BufferTarget& target, std::uint32_t query) {
     if (target.buffer == VK_NULL_HANDLE) {
-        return refused(buffer_name, "is null (ResidentBufferTarget::buffer)");
+        return refused(buffer_name, "is null (BufferTarget::buffer)");
     }
     if (Status status =
             check_place(buffer_name, target.usage, "written", target.offset, offset_alignment_);
@@ -203,7 +203,7 @@ Status Targets::add(const ResidentBufferTarget& target, std::uint32_t query) {
     if (target.size > UINT64_MAX - target.offset) {
         return refused(buffer_name,
                        "has no number of bytes that may be written "
-                       "(ResidentBufferTarget::size), such as VK_WHOLE_SIZE");
+                       "(BufferTarget::size), such as VK_WHOLE_SIZE");
     }
     // Records and samples begin with a summary of this size even if there are none.
     if (Status status = check_room(target, sizeof(SummaryData), "summary"); !status.ok()) {
@@ -223,12 +223,12 @@ Status Targets::add(const ResidentBufferTarget& target, std::uint32_t query) {
     return {};
 }
 
-Status check_room(const ResidentFieldTarget& target, std::uint64_t width, std::uint64_t height) {
+Status check_room(const FieldTarget& target, std::uint64_t width, std::uint64_t height) {
     Status status = check_size(target.signed_distance, signed_distance_name, width, height);
     return status.ok() ? check_size(target.feature, feature_name, width, height) : status;
 }
 
-Status check_room(const ResidentBufferTarget& target, double bytes, std::string_view what) {
+Status check_room(const BufferTarget& target, double bytes, std::string_view what) {
     return bytes <= static_cast<double>(target.size)
                ? Status()
                : refused(buffer_name, "has " + std::to_string(target.size) + " bytes from offset " +

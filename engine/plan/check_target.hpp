@@ -1,7 +1,7 @@
 #pragma once
 
 #include <nearfield/device_poses.hpp>
-#include <nearfield/resident.hpp>
+#include <nearfield/on_device.hpp>
 #include <nearfield/status.hpp>
 
 #include <cstdint>
@@ -23,18 +23,17 @@ public:
     void drop(std::uint32_t query);
     /// Adds what a query writes to. Returns success, or what is wrong with it: then drop it.
     /// `has_features`: of the field's features, some stay on the device.
-    [[nodiscard]] Status add(const ResidentFieldTarget& target, bool has_features,
-                             std::uint32_t query);
-    [[nodiscard]] Status add(const ResidentBufferTarget& target, std::uint32_t query);
+    [[nodiscard]] Status add(const FieldTarget& target, bool has_features, std::uint32_t query);
+    [[nodiscard]] Status add(const BufferTarget& target, std::uint32_t query);
 
 private:
     struct OfQuery {
         std::uint32_t query = 0;
-        ResidentImageTarget image;    // or
-        ResidentBufferTarget buffer;  // if its handle is not null
+        ImageTarget image;    // or
+        BufferTarget buffer;  // if its handle is not null
     };
 
-    [[nodiscard]] Status add_image(const ResidentImageTarget& target, VkFormat format,
+    [[nodiscard]] Status add_image(const ImageTarget& target, VkFormat format,
                                    std::string_view name, std::uint32_t query);
 
     std::uint64_t offset_alignment_;
@@ -42,11 +41,10 @@ private:
 };
 
 /// Checks that a field of this many cells fits the images.
-[[nodiscard]] Status check_room(const ResidentFieldTarget& target, std::uint64_t width,
+[[nodiscard]] Status check_room(const FieldTarget& target, std::uint64_t width,
                                 std::uint64_t height);
 /// Checks that this many bytes fit the range of the buffer; `what` they are: "records".
-[[nodiscard]] Status check_room(const ResidentBufferTarget& target, double bytes,
-                                std::string_view what);
+[[nodiscard]] Status check_room(const BufferTarget& target, double bytes, std::string_view what);
 
 /// Bytes from the first of so many poses of the host's to the end of the last one.
 [[nodiscard]] constexpr std::uint64_t bytes_of_poses(const DevicePoses& poses,

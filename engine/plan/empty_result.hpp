@@ -34,7 +34,7 @@ Result& make_empty(AnyResult& any, bool keeps_cells = false) {
     if constexpr (std::is_same_v<Result, PenetrationResult>) {
         result.count = 0;
         result.deepest = {};
-        result.records.clear();
+        result.points.clear();
     } else if constexpr (std::is_same_v<Result, IntersectionResult>) {
         result.count = 0;
         result.area = 0.0;
@@ -52,7 +52,7 @@ Result& make_empty(AnyResult& any, bool keeps_cells = false) {
     } else if constexpr (std::is_same_v<Result, ContactResult>) {
         result.count = 0;
         result.manifold.clear();
-        result.records.clear();
+        result.points.clear();
     } else {
         std::vector<Region> regions = std::move(result.regions);
         result = {};

@@ -8,7 +8,7 @@
 namespace nearfield::plan {
 
 /// Two distances that differ by less than this fraction of d count as equal
-/// (PenetrationRecord::unique).
+/// (PenetratingPoint::unique).
 inline constexpr double uniqueness_margin = 1e-3;
 /// The same in cells of the grid, whose diagonal is 2 d.
 inline constexpr double margin_in_cells = uniqueness_margin / std::numbers::sqrt2;

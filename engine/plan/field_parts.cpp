@@ -13,8 +13,8 @@ FieldParts field_parts(const DistanceFieldQuery& query) {
     parts.host_values = query.values || parts.blended || (differences && query.gradients);
     parts.host_features =
         query.features || (query.gradients && query.gradient == GradientMethod::analytic);
-    parts.values = parts.host_values || query.resident;
-    parts.features = parts.host_features || (query.resident && query.resident_features);
+    parts.values = parts.host_values || query.on_device;
+    parts.features = parts.host_features || (query.on_device && query.features_on_device);
     parts.halo = (at_points ? 1U : 0U) + (differences ? 1U : 0U);
     if (differences) {
         parts.cells_per_point = parts.blended ? 4 : 12;

@@ -21,8 +21,8 @@ using geometry::Vector;
 /// `side` cells drawn with their halos.
 double bytes_of_cells(const DistanceFieldQuery& query, const FieldParts& parts, const Grid& grid,
                       double side) {
-    const double images = query.resident_features ? 2.0 : 1.0;
-    const double resident = query.resident ? images * sizeof(std::uint32_t) : 0.0;
+    const double images = query.features_on_device ? 2.0 : 1.0;
+    const double resident = query.on_device ? images * sizeof(std::uint32_t) : 0.0;
     const double result = resident + (query.values ? sizeof(float) : 0.0) +
                           (query.features ? sizeof(Feature) : 0.0) +
                           (query.gradients ? 2.0 * sizeof(float) : 0.0) +
@@ -226,7 +226,7 @@ void FieldPlanner::plan(const DistanceFieldQuery& query, CurrentQuery& current,
     const Grid& grid = regions_.grids().front();
     auto& field = planned.work.emplace<PlannedField>();
     field.parts = field_parts(query);
-    if (planned.resident &&
+    if (planned.on_device &&
         !check_resident(query, grid, limits.largest_image, planned, box_b, field, result)) {
         return;
     }

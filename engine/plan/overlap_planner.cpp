@@ -3,7 +3,7 @@
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/overlap_planner.hpp>
 #include <engine/plan/search_shapes.hpp>
-#include <nearfield/resident.hpp>
+#include <nearfield/on_device.hpp>
 
 #include <shaders/layout.h>
 
@@ -29,9 +29,9 @@ constexpr double bytes_per_resident_cell = sizeof(std::uint32_t) + sizeof(Inters
 double bytes_of_samples(const IntersectionQuery& query, const Regions& regions,
                         double largest_tile) {
     const double cells = regions.cells();
-    const bool stay = query.resident && query.resident_samples;
-    return (query.records ? bytes_per_sample * cells
-                          : bytes_per_tile * regions.tiles(largest_tile)) +
+    const bool stay = query.on_device && query.samples_on_device;
+    return (!query.summary_only ? bytes_per_sample * cells
+                                : bytes_per_tile * regions.tiles(largest_tile)) +
            (stay ? bytes_per_resident_cell * cells : 0.0);
 }
 
@@ -84,24 +84,24 @@ bool check_resident(const IntersectionQuery& query, double cells, std::uint64_t 
     const double max_counted = UINT32_MAX;
     const double room = static_cast<double>(largest_range - sizeof(IntersectionSummaryData)) /
                         sizeof(IntersectionSampleData);
-    const double most = query.resident_samples ? std::min(room, max_counted) : max_counted;
+    const double most = query.samples_on_device ? std::min(room, max_counted) : max_counted;
     if (cells <= most && query.target == nullptr) {
         return true;
     }
     if (cells <= most) {
-        const double samples = query.resident_samples ? cells * sizeof(IntersectionSampleData) : 0;
+        const double samples = query.samples_on_device ? cells * sizeof(IntersectionSampleData) : 0;
         result.status =
             check_room(*query.target, sizeof(IntersectionSummaryData) + samples, "samples");
         return result.status.ok();
     }
     result.status = {
         StatusCode::too_large,
-        std::string("an intersection whose ") + (query.resident_samples ? "samples" : "summary") +
-            (query.resident_samples ? " are" : " is") + " to stay on the device has " +
+        std::string("an intersection whose ") + (query.samples_on_device ? "samples" : "summary") +
+            (query.samples_on_device ? " are" : " is") + " to stay on the device has " +
             number(cells) + " cells, more than the " + number(std::floor(most)) +
-            (query.resident_samples
+            (query.samples_on_device
                  ? " that a storage buffer of this device has room for; use a larger tolerance, or "
-                   "leave the samples out (resident_samples)"
+                   "leave the samples out (samples_on_device)"
                  : " that it can count; use a larger tolerance")};
     return false;
 }
@@ -134,7 +134,7 @@ void OverlapPlanner::plan(const IntersectionQuery& query, CurrentQuery& current,
     } else {
         cover_boundary(query.kind, a, b, box_b, current, result);
     }
-    if (planned.resident &&
+    if (planned.on_device &&
         !check_resident(query, regions_.cells(), limits.largest_range, result)) {
         return;
     }

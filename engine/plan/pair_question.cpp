@@ -41,9 +41,9 @@ PairQuestion pair_question(const AnyQuery& query, double reach) {
                 .resolved = contacts->tolerance,
                 .cell = contact_budget(contacts->tolerance, {}).cell,
                 .samples = true,
-                .records = contacts->records,
+                .records = !contacts->summary_only,
                 .reach = contacts->contact_distance,
-                .resident = contacts->resident};
+                .on_device = contacts->on_device};
     }
     const auto& penetration = std::get<PenetrationQuery>(query);
     return {.goal = PairGoal::penetrations,
@@ -51,8 +51,8 @@ PairQuestion pair_question(const AnyQuery& query, double reach) {
             .resolved = penetration.tolerance,
             .cell = penetration_budget(penetration).cell,
             .samples = penetration.points == PenetrationPoints::boundary,
-            .records = penetration.records,
-            .resident = penetration.resident};
+            .records = !penetration.summary_only,
+            .on_device = penetration.on_device};
 }
 
 ErrorBudget pair_budget(const AnyQuery& query, const Deviations& deviations) {

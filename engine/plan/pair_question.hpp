@@ -57,13 +57,13 @@ struct PairQuestion {
     bool records = false;    ///< the result lists points
     double reach = 0.0;      ///< the largest distance of a contact, or of shapes that are near
     bool is_once = false;    ///< each pair is asked about once, the others in both orders
-    bool resident = false;   ///< rows and points also stay on the device
+    bool on_device = false;  ///< rows and points also stay on the device
 
     /// Whether the host reads the points that are found: the rows of contacts are made of them.
     [[nodiscard]] bool reads_points() const { return records || goal == PairGoal::contacts; }
     [[nodiscard]] PairSearchKind kind() const {
         return {goal, reads_points() ? FoundPoints::packed
-                      : resident     ? FoundPoints::numbered
+                      : on_device    ? FoundPoints::numbered
                                      : FoundPoints::compared};
     }
 };

@@ -125,7 +125,7 @@ struct PlannedQuery {
     /// Technique::compute: its tiles have no place in the atlas, and tile batches of their own.
     Technique technique{};
     /// Its results stay on the device as well.
-    bool resident = false;
+    bool on_device = false;
     /// Nothing for a query that the CPU alone answers, or that was rejected.
     std::variant<std::monostate, PlannedPoints, PlannedField, PlannedOverlap> work;
 

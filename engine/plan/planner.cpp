@@ -83,9 +83,9 @@ void Planner::plan_query(const Query& query, const QueryShapes& shapes, Submissi
     PlannedQuery& planned = current.planned();
     result.technique = query.technique;
     planned.technique = query.technique;
-    if constexpr (requires { query.resident; }) {
-        planned.resident = query.resident;
-        if (query.resident) {
+    if constexpr (requires { query.on_device; }) {
+        planned.on_device = query.on_device;
+        if (query.on_device) {
             current.plan.resident.push_back(current.index);
         }
     }
@@ -132,9 +132,9 @@ Status Planner::check(const Query& query, Submissions submissions, const Current
         return limits_.shape_errors->unknown("shape B", query.b.shape);
     }
     if constexpr (requires { query.target; }) {
-        if (query.resident && query.target != nullptr) {
-            if constexpr (requires { query.resident_features; }) {
-                return targets_.add(*query.target, query.resident_features, current.index);
+        if (query.on_device && query.target != nullptr) {
+            if constexpr (requires { query.features_on_device; }) {
+                return targets_.add(*query.target, query.features_on_device, current.index);
             } else {
                 return targets_.add(*query.target, current.index);
             }

@@ -21,14 +21,14 @@ using localize::Chain;
 
 // Host memory per point: planned and resolved, in the result and in the buffers on the way there.
 constexpr double bytes_per_point =
-    sizeof(PlannedPoint) + std::max(sizeof(PenetrationRecord), sizeof(ContactRecord)) + 64.0;
+    sizeof(PlannedPoint) + std::max(sizeof(PenetratingPoint), sizeof(ContactPoint)) + 64.0;
 // The same for a resident point: its details, its table entry, its record.
 constexpr double bytes_per_resident_point = 16.0 + 16.0 + 40.0;
 // What is kept of a point that the device finds, beside its record.
 constexpr double bytes_of_found = sizeof(FoundPointData);
 
 double bytes_of_point(const PlannedQuery& query) {
-    return bytes_per_point + (query.resident ? bytes_per_resident_point : 0.0);
+    return bytes_per_point + (query.on_device ? bytes_per_resident_point : 0.0);
 }
 
 // For either boundary, in a search that is finished exactly.
@@ -71,7 +71,7 @@ std::uint32_t add_reverse(CurrentQuery& current) {
 /// boundaries that it looks at. What the device cannot search is left to the CPU.
 PointSource source_for(double samples, CurrentQuery& current) {
     PlannedQuery& planned = current.planned();
-    if (planned.technique == Technique::compute && !planned.resident) {
+    if (planned.technique == Technique::compute && !planned.on_device) {
         if (samples <= max_searched_points &&
             max_shape_bytes(*planned.a, *planned.b) <= current.limits.largest_range) {
             return PointSource::device;
@@ -132,11 +132,11 @@ void search(double reach, bool both_ways, geometry::RecentlyPlaced& instances,
 /// Checks that the records of the query, whose points are planned, fit the host's buffer, if it
 /// names one. Otherwise drops its tiles, from `first_tile` on, and its points; the result states
 /// the error.
-void check_room_for_records(const ResidentBufferTarget* target, std::size_t first_tile,
+void check_room_for_records(const BufferTarget* target, std::size_t first_tile,
                             CurrentQuery& current, ResultSummary& result) {
     Plan& plan = current.plan;
     PlannedQuery& planned = current.planned();
-    if (!planned.resident || target == nullptr) {
+    if (!planned.on_device || target == nullptr) {
         return;
     }
     PlannedPoints& of_a = planned.points();
@@ -224,8 +224,8 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
                                    : max_samples(*planned.a, result.cell);
     const PointSource source = source_for(of_boundary, current);
     // Of points that are only counted the device leaves out those that cannot be the deepest.
-    points.summarized = source == PointSource::device && !query.records;
-    const double kept = (query.records ? sizeof(PenetrationRecord) : 0.0) +
+    points.summarized = source == PointSource::device && query.summary_only;
+    const double kept = (!query.summary_only ? sizeof(PenetratingPoint) : 0.0) +
                         (points.summarized || source != PointSource::device ? 0.0 : bytes_of_found);
     if (fits_roughly(source, of_boundary, kept, current.memory)) {
         leave_to(source, 0.0, false, current, result);
@@ -281,7 +281,7 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
         source = PointSource::planner;  // they are computed around points of the plan
     }
     const double near = query.contact_distance;
-    const double kept = (query.records ? sizeof(ContactRecord) : 0.0) +
+    const double kept = (!query.summary_only ? sizeof(ContactPoint) : 0.0) +
                         (source == PointSource::device ? bytes_of_found : 0.0);
     if (fits_roughly(source, of_boundaries, kept, current.memory)) {
         leave_to(source, near, true, current, result);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/geometry/vector.hpp>
-#include <nearfield/resident.hpp>
+#include <nearfield/on_device.hpp>
 
 #include <shaders/export.h>
 
@@ -38,7 +38,7 @@ struct FieldOutputs {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
-    ResidentFieldTarget target;    ///< images of the host, where their handles are not null
+    FieldTarget target;            ///< images of the host, where their handles are not null
     bool has_features = true;      ///< otherwise there are only distances
     RingTable rings;               ///< of B
     std::uint32_t first_part = 0;  ///< in ResidentOutputs::field_parts
@@ -53,7 +53,7 @@ struct PointRunOutput {
     std::uint32_t first_block = 0;  ///< of the query's
     std::uint32_t table = 0;        ///< where they lie in the tables, words_of_point each
     RingTable rings;                ///< of the shape whose features they name
-    std::uint32_t flags = 0;        ///< resident_flags of their records
+    std::uint32_t flags = 0;        ///< point_flags of their records
 
     [[nodiscard]] std::uint32_t blocks() const {
         return (count + points_per_block - 1) / points_per_block;
@@ -68,7 +68,7 @@ struct RecordsOutput {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
-    ResidentBufferTarget target;  ///< the host's, if its handle is not null
+    BufferTarget target;          ///< the host's, if its handle is not null
     float near = -1.0F;           ///< contacts: maximum distance, world units
     std::uint32_t first_run = 0;  ///< in ResidentOutputs::point_runs
     std::uint32_t run_count = 0;
@@ -90,7 +90,7 @@ struct SamplesOutput {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
-    ResidentBufferTarget target;  ///< the host's, if its handle is not null
+    BufferTarget target;          ///< the host's, if its handle is not null
     RingTable rings;              ///< of A, where it takes part by its boundary,
     std::uint32_t vertices = 0;   ///< and where its vertices lie in the tables, two floats each
     std::uint32_t first_run = 0;  ///< in ResidentOutputs::sample_runs

@@ -55,9 +55,9 @@ template <class Query>
             return "blended gradients, which are drawn";
         }
     }
-    if constexpr (requires { query.resident; }) {
-        if (technique == Technique::cpu && query.resident) {
-            return "what is to stay on the device (resident)";
+    if constexpr (requires { query.on_device; }) {
+        if (technique == Technique::cpu && query.on_device) {
+            return "what is to stay on the device (on_device)";
         }
     }
     const bool may_be_cpu = technique == Technique::cpu || technique == Technique::automatic;

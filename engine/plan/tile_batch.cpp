@@ -89,7 +89,7 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
         field_tile_of_plan_[i] = static_cast<std::uint32_t>(batch.compute.fields.tiles.size());
         batch.tile_index.push_back(i);
         left_to_cpu_.push_back(false);
-        batch.resident = batch.resident || (tile.kind != TileKind::overlap && query.resident);
+        batch.resident = batch.resident || (tile.kind != TileKind::overlap && query.on_device);
         TileData& data = batch.tiles.emplace_back();
         data.atlas_x = tile.place.x;
         data.atlas_y = tile.place.y;

@@ -60,8 +60,8 @@ OverlapTile TileBatchBuilder::describe_overlap(const IntersectionQuery& query, c
     overlap.tile = static_cast<std::uint32_t>(batch.tiles.size() - 1);
     overlap.part_a = volumes ? Part::volume : Part::boundary;
     overlap.part_b = boundaries ? Part::boundary : Part::volume;
-    overlap.lists = query.records;
-    overlap.keeps_hits = query.resident && query.resident_samples;
+    overlap.lists = !query.summary_only;
+    overlap.keeps_hits = query.on_device && query.samples_on_device;
     batch.listed_cells += overlap.lists ? std::uint64_t{tile.width} * tile.height : 0;
     batch.keeps_hits = batch.keeps_hits || overlap.keeps_hits;
     return overlap;

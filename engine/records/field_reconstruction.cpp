@@ -30,7 +30,7 @@ double reconstruction_error(const std::array<double, 4>& values, double distance
 void reconstruct(const plan::PlannedFieldPoint& point, const CellsAround& around, double cell,
                  double cell_error, const FieldFeature& nearest, FieldPoint& result) {
     const std::array<double, 4> weights = bilinear_weights(point);
-    result.point = geometry::to_public(point.position);
+    result.position = geometry::to_public(point.position);
     result.distance = 0.0;
     result.inside = 0.0;
     for (std::size_t i = 0; i < weights.size(); ++i) {

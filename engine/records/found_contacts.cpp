@@ -22,7 +22,7 @@ void FoundContacts::begin(double cell, double rounding) {
 void FoundContacts::append_points(std::vector<Vector2>& points) const {
     for (const auto* contacts : {&of_a_, &of_b_}) {
         for (const TransformedContact& contact : *contacts) {
-            points.push_back(contact.record.point);
+            points.push_back(contact.record.position);
         }
     }
 }
@@ -47,19 +47,19 @@ void FoundContacts::write(const geometry::Polygon& a, const geometry::Polygon& b
                           const ContactQuery& query, ContactResult& result) {
     result.count = count();
     manifold_.build(a, b, of_a_, of_b_, result.cell, result.manifold);
-    if (query.records) {
+    if (!query.summary_only) {
         SparseCheckpoint<1024> checkpoint;
         for (const auto* contacts : {&of_a_, &of_b_}) {
             for (const TransformedContact& contact : *contacts) {
                 checkpoint.step();
-                result.records.push_back(contact.record);
+                result.points.push_back(contact.record);
             }
         }
     }
 }
 
-ContactRecord FoundContacts::make_record(const ResolvedPoint& resolved, Side on,
-                                         const Vector& normal) const {
+ContactPoint FoundContacts::make_record(const ResolvedPoint& resolved, Side on,
+                                        const Vector& normal) const {
     return {geometry::to_public(resolved.point),
             geometry::to_public(normal),
             resolved.distance,

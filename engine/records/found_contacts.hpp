@@ -74,8 +74,8 @@ private:
         AskedBoundaryNormal asked;
     };
 
-    [[nodiscard]] ContactRecord make_record(const ResolvedPoint& resolved, Side on,
-                                            const geometry::Vector& normal) const;
+    [[nodiscard]] ContactPoint make_record(const ResolvedPoint& resolved, Side on,
+                                           const geometry::Vector& normal) const;
     /// The gradient of the signed distance.
     [[nodiscard]] static geometry::Vector growth_of_distance(const ResolvedPoint& resolved);
     [[nodiscard]] static AskedBoundaryNormal ask_normal_at_nearest(narrowphase::Boundary& boundary,

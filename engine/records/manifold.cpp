@@ -19,13 +19,13 @@ using geometry::Vector;
 constexpr double widest_turn = std::numbers::sqrt2 / 2.0;
 
 /// Negative inside: the least is the most extreme.
-double signed_distance(const ContactRecord& contact) {
+double signed_distance(const ContactPoint& contact) {
     return contact.inside ? -contact.distance : contact.distance;
 }
 
 /// The contact's point on A's boundary.
-Vector2 point_on_a(const ContactRecord& contact) {
-    return contact.on == Side::a ? contact.point : contact.nearest;
+Vector2 point_on_a(const ContactPoint& contact) {
+    return contact.on == Side::a ? contact.position : contact.nearest;
 }
 
 /// Calls `use(contact)` for the contacts of an interval, in order.
@@ -47,7 +47,7 @@ class EndFinder {
 public:
     explicit EndFinder(const Vector& along) : along_(along) {}
 
-    void look_at(const ContactRecord& contact, std::size_t order) {
+    void look_at(const ContactPoint& contact, std::size_t order) {
         const double merit = along_.dot(to_vector(point_on_a(contact))) +
                              (contact.inside ? contact.distance / 8.0 : -2.0 * contact.distance);
         if (merit > merit_) {
@@ -77,7 +77,7 @@ bool ManifoldBuilder::continues(std::span<const TransformedContact> contacts,
                                 const Interval& interval, const TransformedContact& next,
                                 const Vector& normal) const {
     const Vector gap =
-        to_vector(next.record.point) - to_vector(contacts[interval.last()].record.point);
+        to_vector(next.record.position) - to_vector(contacts[interval.last()].record.position);
     return gap.norm() <= spacing_ &&
            interval.normals.dot(normal) >= widest_turn * interval.normals.norm() * normal.norm();
 }
@@ -133,7 +133,7 @@ void ManifoldBuilder::add_cluster(std::span<const TransformedContact> contacts,
     ContactCluster& cluster = manifold.emplace_back();
     cluster.extreme = contacts[interval.first].record;
     std::size_t order = 0;
-    for_each(contacts, interval, [&](const ContactRecord& contact) {
+    for_each(contacts, interval, [&](const ContactPoint& contact) {
         left.look_at(contact, order);
         right.look_at(contact, order);
         if (signed_distance(contact) < signed_distance(cluster.extreme)) {
@@ -190,8 +190,8 @@ void ManifoldBuilder::join_contacts_of_b(const Polygon& a, std::span<const Trans
         const bool wraps = is_before(last.place, first.place);
         const Vector nearest = to_vector(contact.record.nearest);
         return (wraps ? after_first || before_last : after_first && before_last) ||
-               (nearest - to_vector(first.record.point)).norm() <= spacing_ ||
-               (nearest - to_vector(last.record.point)).norm() <= spacing_;
+               (nearest - to_vector(first.record.position)).norm() <= spacing_ ||
+               (nearest - to_vector(last.record.position)).norm() <= spacing_;
     };
     SparseCheckpoint<256> checkpoint;
     for (const TransformedContact& contact : of_b) {

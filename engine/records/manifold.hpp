@@ -14,7 +14,7 @@ namespace nearfield::records {
 
 /// A contact, and the position of its point on the boundary of its own shape.
 struct TransformedContact {
-    ContactRecord record;
+    ContactPoint record;
     plan::BoundaryPoint place;
     plan::BoundaryPoint on_a;  ///< position of A's point of the pair on A's boundary
 };

@@ -137,7 +137,7 @@ std::uint32_t PointResolver::resolve_far(std::uint32_t i) {
 }
 
 std::size_t PointResolver::list_penetrations(double tolerance,
-                                             std::vector<PenetrationRecord>& records) {
+                                             std::vector<PenetratingPoint>& records) {
     records.resize(places_.size());
     std::size_t count = 0;
     std::size_t deepest = 0;

@@ -24,9 +24,9 @@ namespace nearfield::records {
 
 /// Writes the record of a penetrating point. Field by field into its place: a copy of what has just
 /// been written would wait for it.
-inline void write(const ResolvedPoint& resolved, PenetrationRecord& record) {
+inline void write(const ResolvedPoint& resolved, PenetratingPoint& record) {
     const geometry::Vector way = resolved.nearest - resolved.point;
-    record.point = geometry::to_public(resolved.point);
+    record.position = geometry::to_public(resolved.point);
     record.depth = resolved.distance;
     record.direction = geometry::to_public(way / resolved.distance);
     record.nearest = geometry::to_public(resolved.nearest);
@@ -49,7 +49,7 @@ struct QueryPoints {
 /// How many points penetrate B, and the deepest of them, if any; the first of several.
 struct PenetrationSummary {
     std::uint32_t count = 0;
-    PenetrationRecord deepest;
+    PenetratingPoint deepest;
 };
 
 /// Makes the device's answers for the points of a query, or of one direction of it, exact.
@@ -103,7 +103,7 @@ public:
     /// Replaces a list by the records of these points. Returns the index of the deepest, the first
     /// of several; 0 if there is none. For queries of which hardly any point does not penetrate B:
     /// the list is as long as all points at first, which spares initialising what it held before.
-    std::size_t list_penetrations(double tolerance, std::vector<PenetrationRecord>& records);
+    std::size_t list_penetrations(double tolerance, std::vector<PenetratingPoint>& records);
 
     /// What for_each_penetration() tells.
     [[nodiscard]] PenetrationSummary summarize_penetration(double tolerance);

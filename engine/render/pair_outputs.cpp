@@ -16,7 +16,7 @@ constexpr VkBufferUsageFlags output_usage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
 constexpr std::uint64_t bytes_between_headers = 4 * std::uint64_t{plan::words_between_headers};
-static_assert(sizeof(ResidentHeaderData) <= bytes_between_headers);
+static_assert(sizeof(HeaderData) <= bytes_between_headers);
 
 }  // namespace
 
@@ -24,11 +24,11 @@ PairOutputs::PairOutputs(const gpu::Device& device, const passes::ComputeLayout&
     : device_(&device),
       layout_(&layout),
       pairs_(device, output_usage, gpu::Direction::none, "nearfield resident pairs",
-             device.resident_families()),
+             device.reader_families()),
       records_(device, output_usage, gpu::Direction::none, "nearfield resident pair records",
-               device.resident_families()),
+               device.reader_families()),
       headers_(device, output_usage, gpu::Direction::none, "nearfield resident pair headers",
-               device.resident_families()),
+               device.reader_families()),
       set_of_records_(device, layout, name_of_record_set) {}
 
 void PairOutputs::set(const passes::ExportPairs& passes, const geometry::Vector& origin) {
@@ -88,11 +88,11 @@ void PairOutputs::bind(std::size_t part, const InputOfPart& input) {
     layout_->end_updates();
 }
 
-ResidentPairs PairOutputs::pairs() const {
+PairsOnDevice PairOutputs::pairs() const {
     const graph::AccessTraits traits =
         graph::traits(graph::Access::exported_buffer, device_->queue_flags());
-    const bool is_exclusive = device_->resident_families().empty();
-    ResidentPairs pairs;
+    const bool is_exclusive = device_->reader_families().empty();
+    PairsOnDevice pairs;
     pairs.pairs = {pairs_.handle(), bytes_of_pairs(pair_room_), pair_room_, {headers_.handle(), 0}};
     pairs.records = {records_.handle(),
                      bytes_of_records(record_room_),

@@ -4,7 +4,7 @@
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
-#include <nearfield/resident_pairs.hpp>
+#include <nearfield/pairs_on_device.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
 #include <passes/export_pairs.hpp>
@@ -58,7 +58,7 @@ public:
         passes_->record(commands, timestamps, items_[part]);
     }
 
-    [[nodiscard]] ResidentPairs pairs() const;
+    [[nodiscard]] PairsOnDevice pairs() const;
 
 private:
     const gpu::Device* device_;

@@ -28,7 +28,7 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
       poses_(device, layout),
       outputs_(device, layout),
       world_(device),
-      memory_(device, layout, question.kind(), question.resident) {}
+      memory_(device, layout, question.kind(), question.on_device) {}
 
 PairSearchBuffers::~PairSearchBuffers() {
     if (is_submitted_) {

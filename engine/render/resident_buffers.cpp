@@ -53,7 +53,7 @@ ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::Comput
       records_(device,
                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                    VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-               gpu::Direction::none, "nearfield resident records", device.resident_families()) {}
+               gpu::Direction::none, "nearfield resident records", device.reader_families()) {}
 
 void ResidentBuffers::upload(const plan::ResidentOutputs& resident, const ExportPipelines& passes) {
     resident_ = &resident;
@@ -90,12 +90,12 @@ void ResidentBuffers::reserve_images() {
 }
 
 void ResidentBuffers::find_views() {
-    const auto view_of = [](const ResidentImageTarget& target, const gpu::KeptImage& own) {
+    const auto view_of = [](const ImageTarget& target, const gpu::KeptImage& own) {
         return target.image == VK_NULL_HANDLE ? own.view() : target.view;
     };
     views_.clear();
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
-        const ResidentFieldTarget& target = resident_->fields[i].target;
+        const FieldTarget& target = resident_->fields[i].target;
         views_.push_back({view_of(target.signed_distance, images_[i].signed_distance),
                           view_of(target.feature, images_[i].feature)});
     }
@@ -146,7 +146,7 @@ void ResidentBuffers::move_places() {
     };
     for (std::vector<Place>* const places : {&field_places_, &places_, &sample_places_}) {
         for (Place& each : *places) {
-            each.header = place(sizeof(ResidentHeaderData));
+            each.header = place(sizeof(HeaderData));
             each.records = place(each.record_bytes);
             each.blocks = place(std::max(each.block_bytes, smallest_part));
         }
@@ -211,7 +211,7 @@ void ResidentBuffers::bind_headers(const passes::ExportHeaders& pass,
         summary.bytes = smallest_part;
         resources.set(pass.summary, summary);
         resources.set(pass.headers, records_.part(0, records_.capacity()), uses);
-        resources.set(pass.headers, records_.part(place.header, sizeof(ResidentHeaderData)), 1);
+        resources.set(pass.headers, records_.part(place.header, sizeof(HeaderData)), 1);
         updates.add(resources);
         return headers_.emplace_back(
             plan::ExportHeaderPush{{static_cast<float>(origin.x()), static_cast<float>(origin.y())},

@@ -11,7 +11,7 @@
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/pipeline_set.hpp>
 #include <engine/render/resident_targets.hpp>
-#include <nearfield/resident.hpp>
+#include <nearfield/on_device.hpp>
 #include <passes/compute_layout.hpp>
 
 #include <cstdint>
@@ -49,9 +49,9 @@ public:
                 gpu::Timestamps& timestamps) const;
 
     /// The resident output of the i-th field, records or samples of the batch.
-    [[nodiscard]] ResidentField field(std::size_t i) const;
-    [[nodiscard]] ResidentRecords records(std::size_t i) const;
-    [[nodiscard]] ResidentSamples samples(std::size_t i) const;
+    [[nodiscard]] FieldOnDevice field(std::size_t i) const;
+    [[nodiscard]] PointsOnDevice records(std::size_t i) const;
+    [[nodiscard]] SamplesOnDevice samples(std::size_t i) const;
 
 private:
     /// Of a field, empty where the host has given an image.
@@ -85,10 +85,10 @@ private:
     void grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
               std::uint64_t blocks);
     void bind_headers(const passes::ExportHeaders& pass, graph::DescriptorUpdates& updates);
-    [[nodiscard]] ResidentHeader header_at(const Place& place) const {
+    [[nodiscard]] HeaderOnDevice header_at(const Place& place) const {
         return {records_.handle(), place.header};
     }
-    [[nodiscard]] ResidentSlot slot() const { return {0, revision_}; }
+    [[nodiscard]] OutputSlot slot() const { return {0, revision_}; }
     void upload_tables();
     void make_resources(const ExportPipelines& passes);
     [[nodiscard]] gpu::BufferPart tables() const {
@@ -100,9 +100,9 @@ private:
                      const passes::ExportRecords& passes, graph::DescriptorUpdates& updates);
     void bind_samples(std::span<const Words> words, const gpu::BufferPart& none,
                       const passes::ExportSamples& passes, graph::DescriptorUpdates& updates);
-    [[nodiscard]] ResidentState state(graph::Access access) const;
+    [[nodiscard]] OutputState state(graph::Access access) const;
     /// The state of records or samples.
-    [[nodiscard]] ResidentState state(const ResidentBufferTarget& target) const;
+    [[nodiscard]] OutputState state(const BufferTarget& target) const;
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
@@ -116,7 +116,7 @@ private:
     std::vector<Place> places_;                    // by records
     std::vector<Place> sample_places_;             // by samples
     bool are_laid_out_ = false;                    // all places, and there is memory for them
-    std::uint64_t revision_ = 0;                   // see ResidentSlot
+    std::uint64_t revision_ = 0;                   // see OutputSlot
     std::vector<std::uint32_t> details_;           // by run of points
     std::vector<plan::ExportHeaderPush> headers_;  // of fields, records, samples
     // What passes bind, and more of it that an earlier batch had.

@@ -5,35 +5,35 @@ namespace nearfield::render {
 
 // The part of ResidentBuffers that tells the host where its results are.
 
-ResidentState ResidentBuffers::state(graph::Access access) const {
+OutputState ResidentBuffers::state(graph::Access access) const {
     const graph::AccessTraits traits = graph::traits(access, device_->queue_flags());
-    const bool exclusive = device_->resident_families().empty();
+    const bool exclusive = device_->reader_families().empty();
     return {traits.stages, traits.access(), traits.layout,
             exclusive ? device_->queue_family() : VK_QUEUE_FAMILY_IGNORED};
 }
 
-ResidentState ResidentBuffers::state(const ResidentBufferTarget& target) const {
+OutputState ResidentBuffers::state(const BufferTarget& target) const {
     return target.buffer == VK_NULL_HANDLE
                ? state(graph::Access::exported_buffer)
-               : ResidentState{target.after.stages, target.after.access, VK_IMAGE_LAYOUT_UNDEFINED,
-                               device_->queue_family()};
+               : OutputState{target.after.stages, target.after.access, VK_IMAGE_LAYOUT_UNDEFINED,
+                             device_->queue_family()};
 }
 
-ResidentField ResidentBuffers::field(std::size_t i) const {
+FieldOnDevice ResidentBuffers::field(std::size_t i) const {
     const plan::FieldOutputs& field = resident_->fields[i];
     const Images& images = images_[i];
     VkExtent2D extent{};
-    const auto image = [&](const ResidentImageTarget& target, const gpu::KeptImage& kept,
+    const auto image = [&](const ImageTarget& target, const gpu::KeptImage& kept,
                            VkImageView view) {
         if (target.image != VK_NULL_HANDLE) {
-            return ResidentImage{target.image, view, target.format};
+            return ImageOnDevice{target.image, view, target.format};
         }
         extent = kept.extent();
-        return ResidentImage{kept.handle(), view, kept.format()};
+        return ImageOnDevice{kept.handle(), view, kept.format()};
     };
-    const ResidentImage signed_distance =
+    const ImageOnDevice signed_distance =
         image(field.target.signed_distance, images.signed_distance, views_[i].signed_distance);
-    ResidentImage feature;
+    ImageOnDevice feature;
     if (field.has_features) {
         feature = image(field.target.feature, images.feature, views_[i].feature);
     }
@@ -50,7 +50,7 @@ ResidentField ResidentBuffers::field(std::size_t i) const {
             slot()};
 }
 
-ResidentRecords ResidentBuffers::records(std::size_t i) const {
+PointsOnDevice ResidentBuffers::records(std::size_t i) const {
     const plan::RecordsOutput& records = resident_->records[i];
     const gpu::BufferPart range = range_of(i, records);
     const std::uint64_t max_size =
@@ -62,7 +62,7 @@ ResidentRecords ResidentBuffers::records(std::size_t i) const {
             header_at(places_[i]), slot()};
 }
 
-ResidentSamples ResidentBuffers::samples(std::size_t i) const {
+SamplesOnDevice ResidentBuffers::samples(std::size_t i) const {
     const plan::SamplesOutput& samples = resident_->samples[i];
     const gpu::BufferPart range = range_of(i, samples);
     return {range.buffer,

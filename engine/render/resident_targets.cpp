@@ -24,8 +24,8 @@ VkPipelineStageFlags readers_of(const std::vector<Output>& outputs) {
 
 // Another image or buffer of the host's may have the handle of one that is gone, so each time
 // counts as new.
-graph::ImportedImage imported_image(const ResidentImageTarget& target, VkImage own,
-                                    VkImageView view, std::uint64_t identity) {
+graph::ImportedImage imported_image(const ImageTarget& target, VkImage own, VkImageView view,
+                                    std::uint64_t identity) {
     if (target.image == VK_NULL_HANDLE) {
         return {.image = own, .view = view, .identity = identity};
     }
@@ -34,14 +34,14 @@ graph::ImportedImage imported_image(const ResidentImageTarget& target, VkImage o
             view,         next_revision()};
 }
 
-gpu::BufferPart range_of_target(const ResidentBufferTarget& target, const gpu::BufferPart& own) {
+gpu::BufferPart range_of_target(const BufferTarget& target, const gpu::BufferPart& own) {
     return target.buffer == VK_NULL_HANDLE
                ? own
                : gpu::BufferPart{target.buffer, target.offset, own.bytes, VK_NULL_HANDLE,
                                  next_revision()};
 }
 
-std::optional<graph::ExternalUses> uses_of(const ResidentBufferTarget& target) {
+std::optional<graph::ExternalUses> uses_of(const BufferTarget& target) {
     if (target.buffer == VK_NULL_HANDLE) {
         return std::nullopt;
     }

@@ -3,7 +3,7 @@
 #include <engine/gpu/buffer.hpp>
 #include <engine/graph/execute.hpp>
 #include <engine/plan/resident_outputs.hpp>
-#include <nearfield/resident.hpp>
+#include <nearfield/on_device.hpp>
 
 #include <optional>
 
@@ -12,14 +12,14 @@ namespace nearfield::render {
 
 /// An image for the render graph: the host's, or else the library's own. `view`: of either;
 /// `identity`: of the library's.
-[[nodiscard]] graph::ImportedImage imported_image(const ResidentImageTarget& target, VkImage own,
+[[nodiscard]] graph::ImportedImage imported_image(const ImageTarget& target, VkImage own,
                                                   VkImageView view, std::uint64_t identity);
 
 /// Where records or samples lie: in the host's buffer, or else in `own`.
-[[nodiscard]] gpu::BufferPart range_of_target(const ResidentBufferTarget& target,
+[[nodiscard]] gpu::BufferPart range_of_target(const BufferTarget& target,
                                               const gpu::BufferPart& own);
 /// The host's uses of its buffer. The pass that writes the headers reads it, too.
-[[nodiscard]] std::optional<graph::ExternalUses> uses_of(const ResidentBufferTarget& target);
+[[nodiscard]] std::optional<graph::ExternalUses> uses_of(const BufferTarget& target);
 
 /// The stages in which the host uses its buffers after the batch.
 [[nodiscard]] VkPipelineStageFlags readers_of_targets(const plan::ResidentOutputs& resident);

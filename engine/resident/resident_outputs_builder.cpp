@@ -2,7 +2,7 @@
 #include <engine/records/boundary_normal.hpp>
 #include <engine/resident/resident_outputs_builder.hpp>
 #include <engine/resident/resident_tables.hpp>
-#include <nearfield/resident.hpp>
+#include <nearfield/on_device.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ void ResidentOutputsBuilder::find_field_parts(const plan::Plan& plan,
         }
         for (const plan::FieldTile& field : batch.field_tiles) {
             const plan::Tile& tile = plan.tiles[batch.tile_index[field.tile]];
-            if (!plan.queries[tile.query].resident) {
+            if (!plan.queries[tile.query].on_device) {
                 continue;
             }
             const std::uint32_t corner = tile.halo * tile.width + tile.halo;
@@ -86,7 +86,7 @@ void ResidentOutputsBuilder::find_field_parts(const plan::Plan& plan,
             part.tile_batch = number;
             part.value = field.first_value + corner;
             const bool has_features =
-                std::get<DistanceFieldQuery>(*plan.queries[tile.query].query).resident_features;
+                std::get<DistanceFieldQuery>(*plan.queries[tile.query].query).features_on_device;
             part.feature = has_features ? field.first_feature + corner : plan::not_asked;
             part.stride = tile.width;
             part.width = tile.width - 2 * tile.halo;
@@ -117,7 +117,7 @@ void ResidentOutputsBuilder::add_field(const PlannedQuery& planned, std::uint32_
     if (asked.target != nullptr) {
         field.target = *asked.target;
     }
-    field.has_features = asked.resident_features;
+    field.has_features = asked.features_on_device;
     field.rings = add_rings(*planned.b, resident);
     field.first_part = static_cast<std::uint32_t>(resident.field_parts.size());
     const auto first = std::partition_point(
@@ -152,7 +152,7 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan,
     if (!box.isEmpty()) {
         records.origin = box.center();
     }
-    const ResidentBufferTarget* target = nullptr;
+    const BufferTarget* target = nullptr;
     if (const auto* const contacts = std::get_if<ContactQuery>(planned.query)) {
         records.near = static_cast<float>(contacts->contact_distance);
         target = contacts->target;
@@ -165,7 +165,7 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan,
     add_runs(plan, tile_batches, planned, 0, resident);
     if (reverse != nullptr) {
         b_.reset();
-        add_runs(plan, tile_batches, *reverse, resident_flags::on_b, resident);
+        add_runs(plan, tile_batches, *reverse, point_flags::on_b, resident);
     }
 }
 

@@ -65,7 +65,7 @@ void ResidentSamplesBuilder::add(const plan::Plan& plan,
     }
     const plan::PlannedQuery& planned = plan.queries[query];
     const auto& asked = std::get<IntersectionQuery>(*planned.query);
-    const bool by_edge = asked.resident_samples && asked.kind != IntersectionKind::volume_volume;
+    const bool by_edge = asked.samples_on_device && asked.kind != IntersectionKind::volume_volume;
     const Box box = box_of(result.regions);
     SamplesOutput& samples = resident.samples.emplace_back();
     samples.query = query;
@@ -108,7 +108,7 @@ void ResidentSamplesBuilder::find_drawn(const plan::Plan& plan, const plan::Tile
     for (const std::vector<plan::DrawnOverlap>& overlaps : batch.raster.overlaps) {
         for (const plan::DrawnOverlap& drawn : overlaps) {
             found.index = batch.tile_index[drawn.tile];
-            if (plan.queries[plan.tiles[found.index].query].resident) {
+            if (plan.queries[plan.tiles[found.index].query].on_device) {
                 found.data.summary = drawn.tile;
                 found.data.hits = drawn.first_hit;
                 tiles_.push_back(found);
@@ -122,7 +122,7 @@ void ResidentSamplesBuilder::find_masks(const plan::Plan& plan, const plan::Tile
     const plan::ComputeWork& work = batch.compute;
     for (const plan::OverlapData& overlap : work.overlaps) {
         found.index = batch.tile_index[overlap.tile];
-        if (plan.queries[plan.tiles[found.index].query].resident) {
+        if (plan.queries[plan.tiles[found.index].query].on_device) {
             found.data.summary = overlap.tile;
             found.data.hits = overlap.mask_b;
             found.data.mask_a = overlap.mask_a;
@@ -147,7 +147,7 @@ void ResidentSamplesBuilder::add_tiles(const plan::Plan& plan,
     const auto last = std::partition_point(first, tiles_.end(), [&](const FoundTile& tile) {
         return query_of(tile) == samples.query;
     });
-    if (asked.resident_samples) {
+    if (asked.samples_on_device) {
         place_blocks(plan, {first, last}, samples);
     }
     samples.tile_count = static_cast<std::uint32_t>(last - first);

@@ -1,5 +1,5 @@
-#include <nearfield/resident.hpp>
-#include <nearfield/resident_pairs.hpp>
+#include <nearfield/on_device.hpp>
+#include <nearfield/pairs_on_device.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -35,15 +35,15 @@ using uint4 = Several<uint, 4>;    // NOLINT(readability-identifier-naming)
                   sizeof(ours::member) == sizeof(glsl::theirs::member) &&     \
                   sizeof(ours::member) == sizeof(hlsl::theirs::member))
 
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, points);
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, quads);
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, groups);
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, count);
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, origin);
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, cell);
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, overflow);
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, width);
-NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, height);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, points);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, quads);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, groups);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, count);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, origin);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, cell);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, overflow);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, width);
+NEARFIELD_SAME_MEMBER(HeaderData, NearfieldHeader, height);
 
 NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, count);
 NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, capacity);
@@ -75,8 +75,8 @@ NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, a);
 NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, b);
 NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, count);
 NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, flags);
-NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, first_record);
-NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, record_count);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, first_point);
+NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, point_count);
 NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, first_of_b);
 NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, count_of_b);
 NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, deepest);
@@ -95,17 +95,17 @@ NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, flags);
 #define NEARFIELD_SAME_CONSTANT(ours, theirs) \
     static_assert((ours) == glsl::theirs && (ours) == hlsl::theirs)
 
-NEARFIELD_SAME_CONSTANT(resident_feature::index_mask, nearfield_index_mask);
-NEARFIELD_SAME_CONSTANT(resident_feature::vertex, nearfield_vertex_flag);
-NEARFIELD_SAME_CONSTANT(resident_feature::unique, nearfield_unique_flag);
-NEARFIELD_SAME_CONSTANT(resident_feature::inside, nearfield_inside_flag);
-NEARFIELD_SAME_CONSTANT(resident_flags::on_b, nearfield_on_b_flag);
-NEARFIELD_SAME_CONSTANT(resident_flags::touching, nearfield_touching_flag);
-NEARFIELD_SAME_CONSTANT(resident_pair_flags::touching, nearfield_touching_flag);
-NEARFIELD_SAME_CONSTANT(resident_pair_flags::undecided, nearfield_undecided_flag);
-NEARFIELD_SAME_CONSTANT(resident_pair_flags::uncertain, nearfield_uncertain_flag);
-NEARFIELD_SAME_CONSTANT(resident_pair_flags::intersects, nearfield_intersects_flag);
-NEARFIELD_SAME_CONSTANT(no_record, nearfield_no_record);
+NEARFIELD_SAME_CONSTANT(feature_bits::index_mask, nearfield_index_mask);
+NEARFIELD_SAME_CONSTANT(feature_bits::vertex, nearfield_vertex_flag);
+NEARFIELD_SAME_CONSTANT(feature_bits::unique, nearfield_unique_flag);
+NEARFIELD_SAME_CONSTANT(feature_bits::inside, nearfield_inside_flag);
+NEARFIELD_SAME_CONSTANT(point_flags::on_b, nearfield_on_b_flag);
+NEARFIELD_SAME_CONSTANT(point_flags::touching, nearfield_touching_flag);
+NEARFIELD_SAME_CONSTANT(pair_flags::touching, nearfield_touching_flag);
+NEARFIELD_SAME_CONSTANT(pair_flags::undecided, nearfield_undecided_flag);
+NEARFIELD_SAME_CONSTANT(pair_flags::uncertain, nearfield_uncertain_flag);
+NEARFIELD_SAME_CONSTANT(pair_flags::intersects, nearfield_intersects_flag);
+NEARFIELD_SAME_CONSTANT(no_point, nearfield_no_record);
 NEARFIELD_SAME_CONSTANT(no_edge, nearfield_no_edge);
 #undef NEARFIELD_SAME_CONSTANT
 

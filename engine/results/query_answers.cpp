@@ -72,7 +72,7 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
         return;
     }
     resolver_.begin(planned, asked.device.points_of(asked.plan, asked.query));
-    if (std::get<PenetrationQuery>(*planned.query).records) {
+    if (!std::get<PenetrationQuery>(*planned.query).summary_only) {
         list_penetrations(result);
     } else {
         take_summary(resolver_.summarize_penetration(result.tolerance), result);
@@ -88,10 +88,10 @@ void QueryAnswers::take_summary(const records::PenetrationSummary& summary,
 
 /// Of the resolver's points.
 void QueryAnswers::list_penetrations(PenetrationResult& result) {
-    const std::size_t deepest = resolver_.list_penetrations(result.tolerance, result.records);
-    result.count = static_cast<std::uint32_t>(result.records.size());
+    const std::size_t deepest = resolver_.list_penetrations(result.tolerance, result.points);
+    result.count = static_cast<std::uint32_t>(result.points.size());
     if (result.count > 0) {
-        result.deepest = result.records[deepest];
+        result.deepest = result.points[deepest];
     }
 }
 

@@ -38,15 +38,15 @@ AnyQuery DevicePairs::query_on_cpu(const plan::PairRowData& data, bool with_reco
     std::visit(
         [&](auto& query) {
             query.technique = Technique::cpu;
-            if constexpr (requires { query.resident; }) {
-                query.resident = false;
+            if constexpr (requires { query.on_device; }) {
+                query.on_device = false;
             }
             if constexpr (requires { query.a, query.b; }) {
                 query.a = instances_[data.a].instance;
                 query.b = instances_[data.b].instance;
             }
-            if constexpr (requires { query.records; }) {
-                query.records = with_records;
+            if constexpr (requires { query.summary_only; }) {
+                query.summary_only = !with_records;
             }
         },
         on_cpu);
@@ -118,15 +118,15 @@ void DevicePairs::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) 
     fill(row, data, result);
 }
 
-void DevicePairs::records(std::uint32_t index, std::vector<PenetrationRecord>& records) {
+void DevicePairs::records(std::uint32_t index, std::vector<PenetratingPoint>& records) {
     const std::uint32_t number = device_row(index);
     const plan::PairRowData data = pair_of(number);
     // As row() has it.
     if (find_decided(number) != nullptr || (data.count & plan::row_to_resolve) != 0) {
-        records = std::get<PenetrationResult>(answer_on_cpu(data, true)).records;
+        records = std::get<PenetrationResult>(answer_on_cpu(data, true)).points;
         return;
     }
-    resolver_.begin(plan_pair(data), points_of(number, data.first_record, data.record_count));
+    resolver_.begin(plan_pair(data), points_of(number, data.first_point, data.point_count));
     static_cast<void>(resolver_.list_penetrations(question_.tolerance, records));
 }
 
@@ -136,18 +136,18 @@ void DevicePairs::find_contacts(const plan::PairRowData& data, std::uint32_t row
     std::swap(of_b_.a, of_b_.b);
     std::swap(of_b_.pose_a, of_b_.pose_b);
     std::swap(of_b_.deviations.a, of_b_.deviations.b);
-    contact_decoder_.find({of_a_, points_of(row, data.first_record, data.record_count)},
+    contact_decoder_.find({of_a_, points_of(row, data.first_point, data.point_count)},
                           {of_b_, points_of(row, data.first_of_b, data.count_of_b)},
                           of_a_.budget.cell, found_contacts_);
 }
 
 ContactResult& DevicePairs::contacts_of(const plan::PairRowData& data, std::uint32_t row) {
     contacts_.manifold.clear();
-    contacts_.records.clear();
+    contacts_.points.clear();
     if (find_decided(row) != nullptr) {
         const auto& answer = std::get<ContactResult>(answer_on_cpu(data, question_.records));
         contacts_.manifold = answer.manifold;
-        contacts_.records = answer.records;
+        contacts_.points = answer.points;
         return contacts_;
     }
     find_contacts(data, row);
@@ -185,9 +185,9 @@ void DevicePairs::row(std::uint32_t index, PairRow<ContactQuery>& row) {
     fill(row, data, contacts_);
 }
 
-void DevicePairs::records(std::uint32_t index, std::vector<ContactRecord>& records) {
+void DevicePairs::records(std::uint32_t index, std::vector<ContactPoint>& records) {
     const std::uint32_t number = device_row(index);
-    std::swap(records, contacts_of(pair_of(number), number).records);
+    std::swap(records, contacts_of(pair_of(number), number).points);
 }
 
 void DevicePairs::manifold(std::uint32_t index, std::vector<ContactCluster>& manifold) {

@@ -30,10 +30,10 @@ DevicePairs::~DevicePairs() {
     }
 }
 
-ResidentPairs DevicePairs::resident() const {
+PairsOnDevice DevicePairs::on_device() const {
     if (buffers_ == nullptr || instances_.size() < 2) {
         throw StatusException({StatusCode::not_ready,
-                               "resident: no pairs were searched; the table was not submitted, or "
+                               "on_device: no pairs were searched; the table was not submitted, or "
                                "there were fewer than two instances"});
     }
     return buffers_->outputs().pairs();
@@ -198,7 +198,7 @@ void DevicePairs::start(const char* call, Context::Implementation& with, const P
     filters_ = instances.filters();
     find_poses(call);
     const passes::ExportPairs* const exports =
-        question_.resident ? &renderer.export_pairs() : nullptr;
+        question_.on_device ? &renderer.export_pairs() : nullptr;
     const double pipelines = renderer.pipeline_milliseconds() - made;
     if (instances_.size() > 1) {
         order_instances(instances);
@@ -206,7 +206,7 @@ void DevicePairs::start(const char* call, Context::Implementation& with, const P
             buffers_->outputs().set(*exports, instances_.origin());
         }
         timings_.plan = total.milliseconds() - pipelines;
-        renderer.note_pairs(question_.kind(), poses_.has_value(), question_.resident);
+        renderer.note_pairs(question_.kind(), poses_.has_value(), question_.on_device);
         const passes::PairSearch& search = renderer.pair_search(question_.kind());
         if (recording == nullptr) {
             buffers_->begin(search, instances_.shapes(), context_->memory_limit(), timings_);

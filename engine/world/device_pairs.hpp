@@ -12,7 +12,7 @@
 #include <engine/world/instances.hpp>
 #include <engine/world/pair_row.hpp>
 #include <nearfield/device_poses.hpp>
-#include <nearfield/resident_pairs.hpp>
+#include <nearfield/pairs_on_device.hpp>
 #include <nearfield/submission.hpp>
 
 #include <cstdint>
@@ -59,7 +59,7 @@ public:
                                    const WorldOnDevice& source) const;
     [[nodiscard]] bool is_ready() const;
     /// Precondition: the query is resident.
-    [[nodiscard]] ResidentPairs resident() const;
+    [[nodiscard]] PairsOnDevice on_device() const;
     [[nodiscard]] std::uint32_t size() const { return rows_; }
     [[nodiscard]] std::uint32_t candidates() const;
     [[nodiscard]] std::uint32_t left_to_cpu() const {
@@ -72,8 +72,8 @@ public:
     void row(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
     void row(std::uint32_t index, PairRow<ClosestPointQuery>& row) { row_of_cpu(index, row); }
     void row(std::uint32_t index, PairRow<SeparationQuery>& row) { row_of_cpu(index, row); }
-    void records(std::uint32_t index, std::vector<PenetrationRecord>& records);
-    void records(std::uint32_t index, std::vector<ContactRecord>& records);
+    void records(std::uint32_t index, std::vector<PenetratingPoint>& records);
+    void records(std::uint32_t index, std::vector<ContactPoint>& records);
     void manifold(std::uint32_t index, std::vector<ContactCluster>& manifold);
 
 private:
@@ -142,7 +142,7 @@ private:
               const typename Query::Result& result) const {
         row = row_of<Query>(instances_[data.a].handle, instances_[data.b].handle, result);
         if constexpr (requires { result.count; }) {
-            row.record_count = question_.records ? result.count : 0;
+            row.point_count = question_.records ? result.count : 0;
         }
     }
 

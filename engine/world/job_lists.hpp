@@ -45,7 +45,7 @@ private:
         std::uint32_t job = 0;
         std::size_t first_input = 0;
         std::size_t end_input = 0;
-        std::size_t first_record = 0;
+        std::size_t first_point = 0;
     };
 
     /// Writes the size of list i in place of the offset where it ends.
@@ -80,8 +80,7 @@ private:
             }
             offsets[i + 1] = static_cast<std::uint32_t>(end);
         }
-        const auto begin =
-            found_[part.job].begin() + static_cast<std::ptrdiff_t>(part.first_record);
+        const auto begin = found_[part.job].begin() + static_cast<std::ptrdiff_t>(part.first_point);
         records.insert(records.end(), begin,
                        begin + static_cast<std::ptrdiff_t>(end - records.size()));
     }

@@ -62,7 +62,7 @@ void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, co
 
 void PairList::update(const Instances& instances, double reach, bool both_ways) {
     find_changed(instances);
-    find_pairs(instances, instances, reach, both_ways);
+    find_overlapping_boxes(instances, instances, reach, both_ways);
 }
 
 void PairList::update(const Instances& instances, const Motions& motions, double reach) {
@@ -70,12 +70,12 @@ void PairList::update(const Instances& instances, const Motions& motions, double
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
         has_changed_[i] = motions.has_changed(i) ? 1 : 0;
     }
-    find_pairs(instances, motions, reach, false);
+    find_overlapping_boxes(instances, motions, reach, false);
 }
 
 template <class Boxes>
-void PairList::find_pairs(const Instances& instances, const Boxes& boxes, double reach,
-                          bool both_ways) {
+void PairList::find_overlapping_boxes(const Instances& instances, const Boxes& boxes, double reach,
+                                      bool both_ways) {
     found_.clear();
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
         if (has_changed_[i] != 0 && instances.is_placed(i)) {

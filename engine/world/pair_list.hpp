@@ -43,7 +43,8 @@ private:
                        double reach, bool both_ways);
     /// Brings the list up to date with the instances that have changed.
     template <class Boxes>
-    void find_pairs(const Instances& instances, const Boxes& boxes, double reach, bool both_ways);
+    void find_overlapping_boxes(const Instances& instances, const Boxes& boxes, double reach,
+                                bool both_ways);
 
     // Of the instances, at the last update.
     std::uint64_t last_change_ = 0;

@@ -137,7 +137,7 @@ static bool is_answered_in_place(const IntersectionTestQuery& /*query*/) {
     return true;
 }
 static bool is_answered_in_place(const PenetrationQuery& query) {
-    return query.points == PenetrationPoints::vertices && !query.records;
+    return query.points == PenetrationPoints::vertices && query.summary_only;
 }
 
 /// The answer for two instances whose shapes exist. A result would take longer to make than most
@@ -203,11 +203,11 @@ static Technique asked_technique(const char* call, const AnyQuery& query,
     return options.technique != Technique::automatic ? options.technique : own;
 }
 
-static bool is_resident(const AnyQuery& query) {
+static bool is_on_device(const AnyQuery& query) {
     return std::visit(
         [](const auto& any) {
-            if constexpr (requires { any.resident; }) {
-                return any.resident;
+            if constexpr (requires { any.on_device; }) {
+                return any.on_device;
             } else {
                 return false;
             }
@@ -300,7 +300,7 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
         !(input.moving.empty() && input.ends.empty())) {
         refuse(call, "motions are given to a table that asks for no times of impact");
     }
-    const bool needs_device = is_recorded || input.poses != nullptr || table::is_resident(query);
+    const bool needs_device = is_recorded || input.poses != nullptr || table::is_on_device(query);
     Technique technique = table::asked_technique(call, query, options);
     if (technique == Technique::automatic) {
         technique = table::automatic_technique(world.context, query, options, needs_device);
@@ -317,7 +317,7 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
     } else {
         if (needs_device) {
             refuse(call,
-                   "commands of the host, poses that they write and resident results are for "
+                   "commands of the host, poses that they write and results on the device are for "
                    "Technique::compute; the table is answered by Technique::cpu");
         }
         if (device_ != nullptr) {
@@ -401,14 +401,14 @@ bool PairTableBase::State::is_ready() const {
     return device_ != nullptr ? device_->is_ready() : is_submitted_;
 }
 
-ResidentPairs PairTableBase::State::resident() const {
-    if (!table::is_resident(query)) {
-        refuse("resident", "the table's query does without results that stay on the device");
+PairsOnDevice PairTableBase::State::on_device() const {
+    if (!table::is_on_device(query)) {
+        refuse("on_device", "the table's query does without results that stay on the device");
     }
     if (device_ == nullptr) {
-        throw StatusException({StatusCode::not_ready, "resident: the table was not submitted"});
+        throw StatusException({StatusCode::not_ready, "on_device: the table was not submitted"});
     }
-    return device_->resident();
+    return device_->on_device();
 }
 
 std::uint32_t PairTableBase::State::size() const {
@@ -456,10 +456,10 @@ bool PairTableBase::is_ready() const noexcept {
     return state_->is_ready();
 }
 
-Expected<ResidentPairs> PairTableBase::resident() const {
-    ResidentPairs pairs;
-    Status status = catch_to_status([&] { pairs = state_->resident(); });
-    return status.ok() ? Expected<ResidentPairs>(pairs) : status;
+Expected<PairsOnDevice> PairTableBase::on_device() const {
+    PairsOnDevice pairs;
+    Status status = catch_to_status([&] { pairs = state_->on_device(); });
+    return status.ok() ? Expected<PairsOnDevice>(pairs) : status;
 }
 
 const Status& PairTableBase::read_status() const noexcept {
@@ -486,17 +486,17 @@ struct PairTable<Query>::Rows final : State {
         }
         return device_ == nullptr || are_exact_ ? now_.rows[index] : exact_row(index);
     }
-    [[nodiscard]] std::span<const Record> records(const Row& row) {
-        if (row.index >= size() || row.record_count == 0) {
+    [[nodiscard]] std::span<const Point> points(const Row& row) {
+        if (row.index >= size() || row.point_count == 0) {
             return {};
         }
-        if constexpr (requires { device_->records(0U, records_); }) {
+        if constexpr (requires { device_->records(0U, points_); }) {
             if (device_ != nullptr) {
-                device_->records(row.index, records_);
-                return records_;
+                device_->records(row.index, points_);
+                return points_;
             }
         }
-        return records_of_rows_[now_.records[row.index]];
+        return points_of_rows_[now_.records[row.index]];
     }
     [[nodiscard]] std::span<const ContactCluster> manifold(const Row& row) {
         if (row.index >= size()) {
@@ -531,7 +531,7 @@ private:
         if (options.listed) {
             answer_list(call, world, query, input);
         } else {
-            find_pairs(call, world.instances, input);
+            find_overlapping_boxes(call, world.instances, input);
             answer_new_pairs(world, query);
             merge_rows();
         }
@@ -543,7 +543,7 @@ private:
         list_.clear();
         row_of_.clear();
         now_.clear();
-        records_of_rows_.clear();
+        points_of_rows_.clear();
         manifolds_of_rows_.clear();
         world_.reset();
     }
@@ -595,8 +595,8 @@ private:
         }
     }
 
-    void find_pairs(const char* call, const world::Instances& instances,
-                    const PairTableInput& input) {
+    void find_overlapping_boxes(const char* call, const world::Instances& instances,
+                                const PairTableInput& input) {
         const Stopwatch start;
         if constexpr (has_motions) {
             require_moves(call, instances, input.moving, input.ends);
@@ -622,7 +622,7 @@ private:
     void answer_list(const char* call, const WorldView& world, const Query& query,
                      const PairTableInput& input) {
         candidate_count_ = static_cast<std::uint32_t>(input.a.size());
-        records_of_rows_.clear();
+        points_of_rows_.clear();
         manifolds_of_rows_.clear();
         answer_pairs(world, query, input.a.size(), [&](std::size_t i) {
             return table::Pair{world.instances.find(input.a[i], call),
@@ -715,14 +715,14 @@ private:
     void add_row(InstanceHandle a, InstanceHandle b, const typename Query::Result& result) {
         Row& row = answered_.rows.emplace_back(row_of<Query>(a, b, result));
         row.index = static_cast<std::uint32_t>(answered_.rows.size() - 1);
-        const auto add_records = [&](const std::vector<Record>& records) {
-            row.record_count = static_cast<std::uint32_t>(records.size());
-            answered_.records.push_back(records_of_rows_.add(records));
+        const auto add_points = [&](const std::vector<Point>& records) {
+            row.point_count = static_cast<std::uint32_t>(records.size());
+            answered_.records.push_back(points_of_rows_.add(records));
         };
         if constexpr (requires { result.samples; }) {
-            add_records(result.samples);
-        } else if constexpr (requires { result.records; }) {
-            add_records(result.records);
+            add_points(result.samples);
+        } else if constexpr (requires { result.points; }) {
+            add_points(result.points);
         }
         if constexpr (requires { result.manifold; }) {
             answered_.manifolds.push_back(manifolds_of_rows_.add(result.manifold));
@@ -765,7 +765,7 @@ private:
         }
         std::swap(now_, before_);
         row_of_.swap(row_of_before_);
-        records_of_rows_.compact(now_.records);
+        points_of_rows_.compact(now_.records);
         manifolds_of_rows_.compact(now_.manifolds);
     }
 
@@ -779,7 +779,7 @@ private:
     table::Content<Query> now_;       // or the rows of the device that were made exact
     table::Content<Query> answered_;  // by the last update
     table::Content<Query> before_;    // memory for the next update
-    table::RowLists<Record> records_of_rows_;
+    table::RowLists<Point> points_of_rows_;
     table::RowLists<ContactCluster> manifolds_of_rows_;
     std::optional<Jobs> jobs_;
     std::vector<table::Job> scratch_;  // by job
@@ -787,7 +787,7 @@ private:
     Results results_;
     std::vector<table::Pair> pairs_of_batch_;
     bool are_exact_ = false;
-    std::vector<Record> records_;  // of the device, that were read last
+    std::vector<Point> points_;  // of the device, that were read last
     std::vector<ContactCluster> manifold_;
 };
 
@@ -813,9 +813,9 @@ Expected<PairRow<Query>> PairTable<Query>::row(std::uint32_t index) {
 }
 
 template <class Query>
-std::span<const typename PairTable<Query>::Record> PairTable<Query>::records(
+std::span<const typename PairTable<Query>::Point> PairTable<Query>::points(
     const PairRow<Query>& row) noexcept {
-    return state().read([&] { return state().records(row); });
+    return state().read([&] { return state().points(row); });
 }
 
 template <class Query>

@@ -24,7 +24,7 @@ struct PairTableBase::State {
     void collect();
     [[nodiscard]] bool is_recorded(const WorldView& world) const;
     [[nodiscard]] bool is_ready() const;
-    [[nodiscard]] ResidentPairs resident() const;
+    [[nodiscard]] PairsOnDevice on_device() const;
     [[nodiscard]] std::uint32_t size() const;
     [[nodiscard]] std::uint32_t candidates() const;
     [[nodiscard]] std::uint32_t left_to_cpu() const;

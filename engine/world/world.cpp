@@ -38,6 +38,8 @@ void World::State::run_batch() {
 }
 
 World::World(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+World::World(Context& context) noexcept
+    : state_(std::make_unique<State>(*context.implementation_)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;

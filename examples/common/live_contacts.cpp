@@ -65,7 +65,7 @@ void LiveContacts::take_over(const Pending& pending) {
     const ContactResult& result = results_[pending.query];
     require_ok(result.status);
     snapshot_ = pending.asked;
-    snapshot_.contacts = result.records;
+    snapshot_.contacts = result.points;
 }
 
 }  // namespace nearfield::examples

@@ -21,7 +21,7 @@ inline constexpr double contact_distance = 0.2;
 struct Snapshot {
     std::uint64_t version = 0;  ///< Scene::version() at that time; 0 before the first results
     std::array<Pose, 2> poses;
-    std::vector<ContactRecord> contacts;
+    std::vector<ContactPoint> contacts;
 };
 
 /// Finds the contacts of a scene on the device that draws it, in the host's own command buffers.

@@ -128,14 +128,14 @@ std::vector<Vertex> draw(const Scene& scene, const Snapshot& snapshot, const Vie
     for (std::size_t i = 0; i < outlines.size(); ++i) {
         add_outline(triangles, outlines[i], outline_colors[i]);
     }
-    for (const ContactRecord& contact : snapshot.contacts) {
-        const Vector2 at = view.to_pixel(contact.point);
+    for (const ContactPoint& contact : snapshot.contacts) {
+        const Vector2 at = view.to_pixel(contact.position);
         const Vector2 tip{at.x + contact.normal.x * normal_length,
                           at.y - contact.normal.y * normal_length};
         add_line(triangles, at, tip, 1.5, normal_color);
     }
-    for (const ContactRecord& contact : snapshot.contacts) {
-        add_marker(triangles, view.to_pixel(contact.point),
+    for (const ContactPoint& contact : snapshot.contacts) {
+        add_marker(triangles, view.to_pixel(contact.position),
                    contact.inside ? inside_color : outside_color);
     }
     return triangles;

@@ -24,8 +24,8 @@ int main() {
         std::puts(deep.error().text().c_str());
         return 1;
     }
-    for (const auto& record : deep->records) {
-        std::printf("(%g, %g) is %g deep; out along (%g, %g)\n", record.point.x, record.point.y,
-                    record.depth, record.direction.x, record.direction.y);
+    for (const auto& point : deep->points) {
+        std::printf("(%g, %g) is %g deep; out along (%g, %g)\n", point.position.x, point.position.y,
+                    point.depth, point.direction.x, point.direction.y);
     }
 }

@@ -132,7 +132,7 @@ public:
             vk::raii::DescriptorSets(*device_, vk::DescriptorSetAllocateInfo(*pool_, *layout_))
                 .front());
     }
-    void write(Slot& slot, const nearfield::ResidentRecords& contacts) const {
+    void write(Slot& slot, const nearfield::PointsOnDevice& contacts) const {
         // The size is that of one frame's records; the set outlasts it.
         const vk::DescriptorBufferInfo records(contacts.buffer, contacts.offset, VK_WHOLE_SIZE);
         const vk::DescriptorBufferInfo counts(*slot.counts.buffer, 0, sizeof(Counts));
@@ -143,12 +143,12 @@ public:
     }
     /// No barrier comes before it: nearfield's last one makes the records visible.
     void record(const vk::raii::CommandBuffer& commands, const vk::raii::DescriptorSet& set,
-                const nearfield::ResidentHeader& header) const {
+                const nearfield::HeaderOnDevice& header) const {
         commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, 0, *set,
                                     {});
         commands.dispatchIndirect(header.buffer,
-                                  header.offset + offsetof(nearfield::ResidentHeaderData, groups));
+                                  header.offset + offsetof(nearfield::HeaderData, groups));
         const vk::MemoryBarrier to_host(vk::AccessFlagBits::eShaderWrite,
                                         vk::AccessFlagBits::eHostRead);
         commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader,
@@ -189,7 +189,7 @@ nearfield::ContactQuery contacts_at(nearfield::ShapeHandle a, nearfield::ShapeHa
     query.b = {b, {.translation = {x, 0.2}, .angle = 0.3}};
     query.tolerance = 0.01;
     query.contact_distance = 0.02;
-    query.resident = true;
+    query.on_device = true;
     return query;
 }
 
@@ -199,7 +199,7 @@ bool report(const Slot& slot, std::uint64_t number, const nearfield::ContactResu
     std::memcpy(&counts, slot.counts.data, sizeof(counts));
     std::printf("frame %u: %u contacts, %u inside\n", static_cast<unsigned>(number), counts.all,
                 counts.inside);
-    return result.status.ok() && counts.all == result.records.size() && counts.all > 0;
+    return result.status.ok() && counts.all == result.points.size() && counts.all > 0;
 }
 
 int run() {
@@ -226,7 +226,8 @@ int run() {
         vk::CommandBufferAllocateInfo(*pool, vk::CommandBufferLevel::ePrimary, frames_in_flight));
     // Descriptor sets are written here, and again only when a revision changes.
     nearfield::Batch batch;
-    const auto layout = value_of(context.resident_layout(batch, batch.add(contacts_at(a, b, 0.5))));
+    const auto layout =
+        value_of(context.layout_on_device(batch, batch.add(contacts_at(a, b, 0.5))));
     std::array<Frame, frames_in_flight> frames;
     std::array<Slot, frames_in_flight> slots;
     for (std::uint32_t i = 0; i < frames_in_flight; ++i) {

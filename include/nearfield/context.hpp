@@ -24,13 +24,13 @@
 
 namespace nearfield {
 
-// Defined in host.hpp, submission.hpp and resident.hpp, which vulkan.hpp includes.
+// Defined in host.hpp, submission.hpp and on_device.hpp, which vulkan.hpp includes.
 struct HostDevice;
 struct Submission;
 struct Recording;
-struct ResidentField;
-struct ResidentRecords;
-struct ResidentSamples;
+struct FieldOnDevice;
+struct PointsOnDevice;
+struct SamplesOnDevice;
 
 /// Upper limit of Settings::batches_in_flight.
 inline constexpr std::uint32_t max_batches_in_flight = 8;
@@ -87,8 +87,8 @@ struct Settings {
     bool timestamps = false;
     /// False: the context makes all pipelines when it is created, and no later call makes any.
     /// True: the first call that needs a pipeline makes it, and takes longer: run(), submit(),
-    /// record(), collect(), resident_layout(), World::update(), World::submit() or World::record().
-    /// For a program that asks few questions and should start quickly.
+    /// record(), collect(), layout_on_device(), World::update(), World::submit() or
+    /// World::record(). For a program that asks few questions and should start quickly.
     bool pipelines_on_demand = false;
 };
 
@@ -220,7 +220,7 @@ public:
     /// instances and of pairs found. The pairs are borrowed from the context, which keeps their
     /// memory, until the next call. Fails with invalid_query (the reach or a pose), unknown_shape
     /// or out_of_memory.
-    [[nodiscard]] Expected<std::span<const InstancePair>> find_pairs(
+    [[nodiscard]] Expected<std::span<const InstancePair>> find_overlapping_boxes(
         std::span<const Instance> instances, double reach);
 
     /// Answers a batch and returns when all results are available: submit(), then collect(). Fails
@@ -330,42 +330,42 @@ public:
     /// ticket in flight fails with device_lost.
     Status collect(Ticket ticket, Results& results, const Limits& limits = {});
 
-    /// The results that a query with `resident` set leaves on the device, from submit() or record()
-    /// until the batch is collected. They are valid once the device has executed the commands;
-    /// resident.hpp states how a host's shaders read them. Never waits.
+    /// The results that a query with `on_device` set leaves on the device, from submit() or
+    /// record() until the batch is collected. They are valid once the device has executed the
+    /// commands; on_device.hpp states how a host's shaders read them. Never waits.
     ///
     /// Fails with unknown_ticket as collect() does; with invalid_query if the handle names no query
-    /// of that kind in the batch, or one without `resident`; with the query's own status if that is
-    /// an error, as for Technique::cpu; with device_lost once the device is lost.
-    [[nodiscard]] Expected<ResidentField> resident(Ticket ticket,
-                                                   QueryHandle<DistanceFieldQuery> query);
-    /// The same for the records of a penetration query.
-    [[nodiscard]] Expected<ResidentRecords> resident(Ticket ticket,
+    /// of that kind in the batch, or one without `on_device`; with the query's own status if that
+    /// is an error, as for Technique::cpu; with device_lost once the device is lost.
+    [[nodiscard]] Expected<FieldOnDevice> on_device(Ticket ticket,
+                                                    QueryHandle<DistanceFieldQuery> query);
+    /// The same for the points of a penetration query.
+    [[nodiscard]] Expected<PointsOnDevice> on_device(Ticket ticket,
                                                      QueryHandle<PenetrationQuery> query);
     /// The same for contacts.
-    [[nodiscard]] Expected<ResidentRecords> resident(Ticket ticket,
+    [[nodiscard]] Expected<PointsOnDevice> on_device(Ticket ticket,
                                                      QueryHandle<ContactQuery> query);
     /// The same for the samples of an intersection.
-    [[nodiscard]] Expected<ResidentSamples> resident(Ticket ticket,
-                                                     QueryHandle<IntersectionQuery> query);
+    [[nodiscard]] Expected<SamplesOnDevice> on_device(Ticket ticket,
+                                                      QueryHandle<IntersectionQuery> query);
 
-    /// What resident() will return for a query of a batch like this one: one entry for each of
-    /// Settings::batches_in_flight, at the position ResidentSlot::index. Makes room in all of them,
+    /// What on_device() will return for a query of a batch like this one: one entry for each of
+    /// Settings::batches_in_flight, at the position OutputSlot::index. Makes room in all of them,
     /// so that a host can write its descriptor sets before the first frame; they stay valid as long
-    /// as ResidentSlot::revision stays the same. Plans the batch once for each entry, and records
-    /// nothing. Sizes are those at the poses of the batch; ResidentRecords::max_size holds for all.
+    /// as OutputSlot::revision stays the same. Plans the batch once for each entry, and records
+    /// nothing. Sizes are those at the poses of the batch; PointsOnDevice::max_size holds for all.
     ///
-    /// Fails with not_ready if a batch is in flight, and as submit() and resident() do.
-    [[nodiscard]] Expected<std::vector<ResidentField>> resident_layout(
+    /// Fails with not_ready if a batch is in flight, and as submit() and on_device() do.
+    [[nodiscard]] Expected<std::vector<FieldOnDevice>> layout_on_device(
         const Batch& batch, QueryHandle<DistanceFieldQuery> query);
-    /// The same for the records of a penetration query.
-    [[nodiscard]] Expected<std::vector<ResidentRecords>> resident_layout(
+    /// The same for the points of a penetration query.
+    [[nodiscard]] Expected<std::vector<PointsOnDevice>> layout_on_device(
         const Batch& batch, QueryHandle<PenetrationQuery> query);
     /// The same for contacts.
-    [[nodiscard]] Expected<std::vector<ResidentRecords>> resident_layout(
+    [[nodiscard]] Expected<std::vector<PointsOnDevice>> layout_on_device(
         const Batch& batch, QueryHandle<ContactQuery> query);
     /// The same for the samples of an intersection.
-    [[nodiscard]] Expected<std::vector<ResidentSamples>> resident_layout(
+    [[nodiscard]] Expected<std::vector<SamplesOnDevice>> layout_on_device(
         const Batch& batch, QueryHandle<IntersectionQuery> query);
 
     /// The device's name as reported by its driver; empty without a device.
@@ -376,8 +376,8 @@ public:
 
     /// Gives back the device memory that no batch in flight uses: buffers and images of the others,
     /// which later batches make again at the size that they need. For after a spike, or a change of
-    /// scene. Handles of resident results of collected batches and from resident_layout() become
-    /// invalid. Never waits.
+    /// scene. Handles of results on the device of collected batches and from layout_on_device()
+    /// become invalid. Never waits.
     void trim() noexcept;
 
     class NEARFIELD_HIDDEN Implementation;  ///< the library's own

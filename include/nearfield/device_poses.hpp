@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nearfield/resident.hpp>
+#include <nearfield/on_device.hpp>
 #include <nearfield/shape.hpp>
 
 #include <vulkan/vulkan_core.h>

@@ -59,7 +59,7 @@ struct MemoryAllocation {
 
 /// A host's allocator of device memory. Both functions or neither. They are called by the thread
 /// that called the library, during any call that may allocate or free (Context::create, submit,
-/// record, resident_layout, trim, collect, the destructor, ...), must not throw and must not call
+/// record, layout_on_device, trim, collect, the destructor, ...), must not throw and must not call
 /// the context.
 struct MemoryFunctions {
     void* user = nullptr;  ///< passed to each function
@@ -129,13 +129,13 @@ struct HostDevice {
 
     /// Where all device memory comes from. Default: blocks that the library allocates.
     MemoryFunctions memory = {};
-    /// Queue families other than `queue_family` whose commands read resident results
-    /// (resident.hpp). Their images and buffers are then shared by these families and
+    /// Queue families other than `queue_family` whose commands read results on the device
+    /// (on_device.hpp). Their images and buffers are then shared by these families and
     /// `queue_family` (VK_SHARING_MODE_CONCURRENT), so a semaphore is all that a queue of another
     /// family needs. Default: exclusive to `queue_family`. The array is copied; `device` must have
     /// been created with queues of each.
-    const std::uint32_t* resident_families = nullptr;
-    std::uint32_t resident_family_count = 0;  ///< length of `resident_families`
+    const std::uint32_t* reader_families = nullptr;
+    std::uint32_t reader_family_count = 0;  ///< length of `reader_families`
 };
 
 }  // namespace nearfield

@@ -1,5 +1,5 @@
-// Resident outputs of nearfield, for shaders to read: include this file in GLSL 4.50 for Vulkan.
-// resident.hpp declares the same structures in C++ and states how they are obtained;
+// Outputs on the device of nearfield, for shaders to read: include this file in GLSL 4.50 for Vulkan.
+// on_device.hpp declares the same structures in C++ and states how they are obtained;
 // docs/resident_results.md describes them in full.
 //
 // Every name that might clash with the host's begins with nearfield_ or Nearfield.
@@ -19,8 +19,8 @@ const uint nearfield_touching_flag = 2u;    // too near the boundary to tell ins
 
 const uint nearfield_no_record = 0xffffffffu;
 
-// What there is of a resident output, and arguments that draw or dispatch as much (ResidentHeader in
-// resident.hpp). Of a field: its cells.
+// What there is of a output on the device, and arguments that draw or dispatch as much (HeaderOnDevice in
+// on_device.hpp). Of a field: its cells.
 struct NearfieldHeader {
     uvec4 points;    // VkDrawIndirectCommand: one vertex for each record, sample or cell
     uvec4 quads;     // VkDrawIndirectCommand: six vertices and one instance for each; a field: one
@@ -75,14 +75,14 @@ const uint nearfield_undecided_flag = 4u;    // whether the pair is hit, or what
 const uint nearfield_uncertain_flag = 8u;    // it is, but count and deepest record are not certain
 const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
 
-// A pair of instances that is hit, or may be (ResidentPairs in resident_pairs.hpp).
+// A pair of instances that is hit, or may be (PairsOnDevice in pairs_on_device.hpp).
 struct NearfieldPair {
     uint a;             // indices of the instances' handles
     uint b;
     uint count;         // of the records, those that count for certain
     uint flags;
-    uint first_record;  // consecutive records, of points of A's boundary
-    uint record_count;
+    uint first_point;  // consecutive records, of points of A's boundary
+    uint point_count;
     uint first_of_b;    // contacts: those of points of B's boundary
     uint count_of_b;
     uint deepest;       // penetrations: the record of the greatest depth, or nearfield_no_record

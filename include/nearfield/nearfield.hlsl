@@ -1,7 +1,7 @@
-// Resident outputs of nearfield, for HLSL shaders to read (compiled to SPIR-V): the same structures as
+// Outputs on the device of nearfield, for HLSL shaders to read (compiled to SPIR-V): the same structures as
 // in nearfield.glsl, which describes them in full.
 //
-// Declare buffers as StructuredBuffer or ByteAddressBuffer at the offset that resident.hpp states: a
+// Declare buffers as StructuredBuffer or ByteAddressBuffer at the offset that on_device.hpp states: a
 // summary, followed by records or samples.
 #ifndef NEARFIELD_HLSL
 #define NEARFIELD_HLSL
@@ -75,8 +75,8 @@ struct NearfieldPair {
     uint b;
     uint count;
     uint flags;
-    uint first_record;
-    uint record_count;
+    uint first_point;
+    uint point_count;
     uint first_of_b;
     uint count_of_b;
     uint deepest;  // nearfield_no_record if there is none

@@ -31,9 +31,9 @@ struct TimeOfImpactResult;
 struct SeparationVectorResult;
 struct ContainmentResult;
 
-// Defined in resident.hpp.
-struct ResidentFieldTarget;
-struct ResidentBufferTarget;
+// Defined in on_device.hpp.
+struct FieldTarget;
+struct BufferTarget;
 
 /// Upper limit of the deviations of a query's two shapes (Context::add_shape) added together, as a
 /// fraction of its tolerance; above it the query fails (invalid_query).
@@ -41,7 +41,7 @@ inline constexpr double max_deviation = 0.25;
 
 /// The technique that answers a query. ResultSummary::technique states which one did.
 ///
-/// All techniques give the same records: the same points, and depths and distances that differ by
+/// All techniques list the same points, with depths and distances that differ by
 /// less than d/1000. A point penetrates a shape if it is inside and deeper than d/1024; otherwise
 /// it touches. Intersections have the same cells; raster and cpu find the same samples and edges,
 /// bit for bit, on a device with 8 sub-pixel bits, whose grid cpu has everywhere. Those of compute
@@ -68,11 +68,11 @@ enum class Technique {
     /// Runs entirely on the CPU, and its answers have the same bits on every machine. Points are
     /// resolved to single edges in double precision, intersections by bit masks of a raster's
     /// samples, distance fields by the near edges of each block of cells. Answers every query
-    /// except GradientMethod::blended and resident results (invalid_query); it alone answers
+    /// except GradientMethod::blended and results on the device (invalid_query); it alone answers
     /// intersection tests, times of impact, separation vectors and containment.
     ///
     /// ResultSummary::regions are not sampled grids for points. They are the common box of both
-    /// shapes (none for penetration without records); for contacts the box around the parts of
+    /// shapes (none for the summary of a penetration); for contacts the box around the parts of
     /// either shape that lie in the other's box grown by the contact distance; and the regions that
     /// localisation found if normals are gradients, or if Settings::memory_limit does not allow all
     /// samples of the boundaries to be kept at once. Closest points have none.
@@ -90,6 +90,12 @@ enum class PenetrationPoints {
 
 /// Point depth: for points of A's boundary inside B, the distance and direction to the nearest
 /// point of B's boundary (section 2.2.4 of the paper, "Penetration Depth and Direction").
+///
+///     const nearfield::PenetrationQuery query{.a = {arrow, pose}, .b = {channel}, .tolerance =
+///     0.1}; if (const auto deep = context.answer(query)) {
+///         for (const auto& point : deep->points) { push(point.position, point.direction,
+///         point.depth); }
+///     }
 struct NEARFIELD_EXPORT PenetrationQuery {
     using Result = PenetrationResult;  ///< its answer (result.hpp)
 
@@ -97,16 +103,18 @@ struct NEARFIELD_EXPORT PenetrationQuery {
     Instance b = {};         ///< the shape that they penetrate
     double tolerance = 0.0;  ///< d, world units, > 0: half the diagonal of a grid cell
     PenetrationPoints points = PenetrationPoints::boundary;  ///< which points of A
-    bool records = true;  ///< false: keep the summary (count, deepest), omit the records
+    bool summary_only =
+        false;  ///< true: the answer is the summary (count, deepest), without points
     Technique technique = Technique::automatic;  ///< the technique that answers
-    /// True: summary and records also stay on the device, for shaders to read (resident.hpp).
+    /// True: summary and points also stay on the device, for shaders to read (on_device.hpp).
     /// Technique::automatic then selects a device technique, and Technique::cpu fails
     /// (invalid_query).
-    bool resident = false;
-    /// The host's buffer that resident results go to; null: nearfield's own. Ignored if `resident`
-    /// is false. A target that cannot be written, or is too small, fails (invalid_query). Borrowed
-    /// until run(), submit() or record() returns; the buffer itself, until the batch is collected.
-    const ResidentBufferTarget* target = nullptr;
+    bool on_device = false;
+    /// The host's buffer that results on the device go to; null: nearfield's own. Ignored if
+    /// `on_device` is false. A target that cannot be written, or is too small, fails
+    /// (invalid_query). Borrowed until run(), submit() or record() returns; the buffer itself,
+    /// until the batch is collected.
+    const BufferTarget* target = nullptr;
 };
 
 /// The part of each shape that an intersection uses (section 2.2.1 of the paper).
@@ -146,6 +154,10 @@ inline constexpr std::size_t intersection_strategies = 4;
 [[nodiscard]] NEARFIELD_EXPORT const char* to_string(IntersectionStrategy strategy) noexcept;
 
 /// The samples of a grid that lie in both shapes (section 2.2.1 and Table 1 of the paper).
+///
+///     const auto common = context.answer(nearfield::IntersectionQuery{
+///         .a = {arrow, pose}, .b = {channel}, .tolerance = 0.01, .summary_only = true});
+///     const double area = common ? common->area : 0.0;
 struct NEARFIELD_EXPORT IntersectionQuery {
     using Result = IntersectionResult;  ///< its answer (result.hpp)
 
@@ -153,18 +165,18 @@ struct NEARFIELD_EXPORT IntersectionQuery {
     Instance b = {};                                          ///< likewise
     double tolerance = 0.0;                                   ///< d, world units, > 0
     IntersectionKind kind = IntersectionKind::volume_volume;  ///< the part of each shape
-    /// False: keep the summary (count, area, box), omit the samples. None are listed then, so
-    /// memory does not grow with the grid, except for the bit masks of Technique::compute.
-    bool records = true;
+    /// True: the answer is the summary (count, area, box), without samples. Memory then does not
+    /// grow with the grid, except for the bit masks of Technique::compute.
+    bool summary_only = false;
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of Technique::raster
     Technique technique = Technique::automatic;                     ///< the technique that answers
-    /// True: summary and samples also stay on the device, for shaders to read (resident.hpp),
-    /// whatever `records` is; for techniques see PenetrationQuery::resident.
-    bool resident = false;
+    /// True: summary and samples also stay on the device, for shaders to read (on_device.hpp),
+    /// whatever `summary_only` is; for techniques see PenetrationQuery::on_device.
+    bool on_device = false;
     /// False: only the summary stays on the device, so its memory does not grow with the grid.
-    /// Ignored if `resident` is false.
-    bool resident_samples = true;
-    const ResidentBufferTarget* target = nullptr;  ///< as PenetrationQuery::target
+    /// Ignored if `on_device` is false.
+    bool samples_on_device = true;
+    const BufferTarget* target = nullptr;  ///< as PenetrationQuery::target
 };
 
 /// The buffer in which Technique::raster stores which cells are inside (section 2.2.2 of the paper
@@ -192,6 +204,11 @@ enum class GradientMethod {
 /// The signed distance field of B (section 2.2.2 of the paper): the distance to B's boundary at the
 /// cell centres of a grid, negative inside B. Optionally also the nearest features (the Voronoi
 /// diagram) and the gradient (section 2.2.3). Fails (invalid_query) if it requests no output.
+///
+///     const nearfield::Rectangle view{{-8.0, -8.0}, {16.0, 8.0}};
+///     const auto field = context.answer(nearfield::DistanceFieldQuery{
+///         .b = {channel}, .tolerance = 0.1, .rectangle = view});
+///     const float first = field ? field->values[0] : 0.0F;  // outside: positive
 struct DistanceFieldQuery {
     using Result = DistanceFieldResult;  ///< its answer (result.hpp)
 
@@ -216,15 +233,15 @@ struct DistanceFieldQuery {
     std::span<const Vector2> points = {};
     Technique technique = Technique::automatic;  ///< the technique that answers
     /// True: images of the signed distance and of the nearest features stay on the device, for
-    /// shaders to sample (resident.hpp); for techniques see PenetrationQuery::resident. `values`
+    /// shaders to sample (on_device.hpp); for techniques see PenetrationQuery::on_device. `values`
     /// and `features` only select what is also returned to the CPU; both may be false.
-    bool resident = false;
+    bool on_device = false;
     /// False: of these only the image of the signed distance, in a fraction of the time. Ignored if
-    /// `resident` is false.
-    bool resident_features = true;
-    /// The host's images that the resident field goes to; null: nearfield's own. Otherwise as
+    /// `on_device` is false.
+    bool features_on_device = true;
+    /// The host's images that the field on the device goes to; null: nearfield's own. Otherwise as
     /// PenetrationQuery::target.
-    const ResidentFieldTarget* target = nullptr;
+    const FieldTarget* target = nullptr;
 };
 
 /// The source of contact normals.
@@ -235,6 +252,13 @@ enum class ContactNormals {
 
 /// Contact points and normals: the points of either boundary that are close to the other boundary,
 /// inside and outside it (section 2.2.4 of the paper, "Contact Points and Normals").
+///
+///     const auto contacts = context.answer(nearfield::ContactQuery{
+///         .a = {arrow, pose}, .b = {channel}, .tolerance = 0.05, .contact_distance = 0.1});
+///     if (contacts) {
+///         for (const auto& cluster : contacts->manifold) { solve(cluster.normal, cluster.extreme);
+///         }
+///     }
 struct NEARFIELD_EXPORT ContactQuery {
     using Result = ContactResult;  ///< its answer (result.hpp)
 
@@ -243,14 +267,18 @@ struct NEARFIELD_EXPORT ContactQuery {
     double tolerance = 0.0;         ///< d, world units, > 0; contacts are at most a cell apart
     double contact_distance = 0.0;  ///< maximum distance of a contact, world units, > 0
     ContactNormals normals = ContactNormals::analytic;  ///< how normals are computed
-    bool records = true;  ///< false: keep the summary and the manifold, omit the records
+    bool summary_only = false;  ///< true: the answer is summary and manifold, without points
     Technique technique = Technique::automatic;  ///< the technique that answers
-    /// As PenetrationQuery::resident; requires ContactNormals::analytic (invalid_query otherwise).
-    bool resident = false;
-    const ResidentBufferTarget* target = nullptr;  ///< as PenetrationQuery::target
+    /// As PenetrationQuery::on_device; requires ContactNormals::analytic (invalid_query otherwise).
+    bool on_device = false;
+    const BufferTarget* target = nullptr;  ///< as PenetrationQuery::target
 };
 
 /// The point of A that is closest to B (section 2.2.4 of the paper, "Closest Point").
+///
+///     const auto closest = context.answer(nearfield::ClosestPointQuery{
+///         .a = {arrow, far}, .b = {channel}, .tolerance = 0.01});
+///     const nearfield::Vector2 grip = closest ? closest->point : nearfield::Vector2{};
 struct NEARFIELD_EXPORT ClosestPointQuery {
     using Result = ClosestPointResult;  ///< its answer (result.hpp)
 
@@ -265,6 +293,10 @@ struct NEARFIELD_EXPORT ClosestPointQuery {
 
 /// The minimum distance between two shapes and where it occurs (section 2.2.4 of the paper,
 /// "Separation Distance and Direction").
+///
+///     const auto gap = context.answer(
+///         nearfield::SeparationQuery{.a = {arrow, far}, .b = {channel}, .tolerance = 0.01});
+///     const bool is_clear = gap && gap->distance > 0.5;
 struct NEARFIELD_EXPORT SeparationQuery {
     using Result = SeparationResult;  ///< its answer (result.hpp)
 
@@ -277,6 +309,10 @@ struct NEARFIELD_EXPORT SeparationQuery {
 /// Tests whether the closed shapes A and B share a point; ResultSummary::intersects is the answer.
 /// Exact up to the rounding of transformed vertices, so it has no tolerance. Always answered on the
 /// CPU: Technique::automatic or cpu; raster and compute fail (invalid_query).
+///
+///     const auto test = context.answer(
+///         nearfield::IntersectionTestQuery{.a = {arrow, pose}, .b = {channel}});
+///     const bool overlaps = test && test->intersects;
 struct NEARFIELD_EXPORT IntersectionTestQuery {
     using Result = IntersectionTestResult;  ///< its answer (result.hpp)
 
@@ -290,6 +326,10 @@ struct NEARFIELD_EXPORT IntersectionTestQuery {
 /// rotates about the origin of its own coordinates, by whole turns if the angles differ by that
 /// much. A shape whose end pose equals its instance's pose does not move. Goes beyond the paper.
 /// Always answered on the CPU, as IntersectionTestQuery.
+///
+///     const auto impact = context.answer(nearfield::TimeOfImpactQuery{
+///         .a = {arrow, far}, .b = {channel}, .end_a = pose, .tolerance = 0.001});
+///     const double time = impact ? impact->time : 0.0;  // 1 if they never touch
 struct NEARFIELD_EXPORT TimeOfImpactQuery {
     using Result = TimeOfImpactResult;  ///< its answer (result.hpp)
 
@@ -317,6 +357,11 @@ struct NEARFIELD_EXPORT TimeOfImpactQuery {
 /// share no point (a bound on the minimum translation vector, MTV). Goes beyond the paper, whose
 /// penetration depth is that of single points. Always answered on the CPU, as
 /// IntersectionTestQuery.
+///
+///     const auto way = context.answer(
+///         nearfield::SeparationVectorQuery{.a = {arrow, pose}, .b = {channel}, .tolerance =
+///         0.01});
+///     const nearfield::Vector2 shift = way ? way->vector : nearfield::Vector2{};
 struct NEARFIELD_EXPORT SeparationVectorQuery {
     using Result = SeparationVectorResult;  ///< its answer (result.hpp)
 
@@ -339,6 +384,10 @@ struct NEARFIELD_EXPORT SeparationVectorQuery {
 /// area of A, however small, means that it is not. Exact up to the rounding of transformed
 /// vertices, so it has no tolerance. Goes beyond the paper. Always answered on the CPU, as
 /// IntersectionTestQuery.
+///
+///     const auto inside = context.answer(
+///         nearfield::ContainmentQuery{.a = {arrow, pose}, .b = {sheet}});
+///     const bool fits = inside && inside->inside && inside->clearance >= 0.5;
 struct NEARFIELD_EXPORT ContainmentQuery {
     using Result = ContainmentResult;  ///< its answer (result.hpp)
 

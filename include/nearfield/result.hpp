@@ -20,47 +20,47 @@
 namespace nearfield {
 
 /// One penetrating point of A.
-struct PenetrationRecord {
-    Vector2 point;       ///< on A's boundary, inside B
-    double depth = 0.0;  ///< distance from `point` to `nearest`, > d/1024
-    Vector2 direction;   ///< unit vector from `point` to `nearest`: points out of B
-    Vector2 nearest;     ///< the point of B's boundary nearest to `point`
+struct PenetratingPoint {
+    Vector2 position;    ///< on A's boundary, inside B
+    double depth = 0.0;  ///< distance from `position` to `nearest`, > d/1024
+    Vector2 direction;   ///< unit vector from `position` to `nearest`: points out of B
+    Vector2 nearest;     ///< the point of B's boundary nearest to `position`
     Feature feature;     ///< of B: where `nearest` lies
-    /// False if the direction is one of several: the point of another edge of B nearest to `point`
-    /// is within `depth` + d/1000 of it, and farther from `nearest` than 2 * sqrt((depth +
-    /// d/1000)^2 - depth^2), twice what a straight edge explains.
+    /// False if the direction is one of several: the point of another edge of B nearest to
+    /// `position` is within `depth` + d/1000 of it, and farther from `nearest` than 2 * sqrt((depth
+    /// + d/1000)^2 - depth^2), twice what a straight edge explains.
     bool unique = true;
 };
 
-/// What a PenetrationResult states besides its summary and records.
+/// What a PenetrationResult states besides its summary and points.
 struct PenetrationValues {
-    std::uint32_t count = 0;    ///< number of penetrating points
-    PenetrationRecord deepest;  ///< meaningful if count > 0
+    std::uint32_t count = 0;   ///< number of penetrating points
+    PenetratingPoint deepest;  ///< meaningful if count > 0
 };
 
 /// Answer to a PenetrationQuery.
 ///
-/// The numbers of a record are computed in double precision from the vertices as given. The nearest
+/// The numbers of a point are computed in double precision from the vertices as given. The nearest
 /// feature is decided in single precision in grid cells: if two are equally near to within d/1000,
 /// either may be named.
 ///
 /// `error_bound` bounds how much deeper than `deepest` any point of A's boundary can be (any
 /// vertex, for PenetrationPoints::vertices). For shapes with a deviation it also bounds how much
-/// less deep the deepest boundary point of the shapes themselves can be; the depth of a record is
+/// less deep the deepest boundary point of the shapes themselves can be; the depth of a point is
 /// then off by at most the deviation of B, at a point that is off by at most that of A.
 struct PenetrationResult : ResultSummary, PenetrationValues {
-    using Values = PenetrationValues;  ///< what it states besides summary and records
-    using Record = PenetrationRecord;  ///< what it lists
+    using Values = PenetrationValues;  ///< what it states besides summary and points
+    using Point = PenetratingPoint;    ///< what it lists
     /// In order along A's rings. A sequence that continues past the first vertex of a ring may
     /// stand at the start of the ring as a whole; techniques differ in this.
-    std::vector<PenetrationRecord> records;
+    std::vector<PenetratingPoint> points;
 };
 
 /// One grid sample that lies in both shapes.
 struct IntersectionSample {
     /// The value of `edge` if A takes part by its volume.
     static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
-    Vector2 point;                 ///< the centre of a cell
+    Vector2 position;              ///< the centre of a cell
     std::uint32_t edge = no_edge;  ///< an edge of A nearby, if A takes part by its boundary
 };
 
@@ -80,13 +80,13 @@ struct IntersectionValues {
 /// on the boundary.
 struct IntersectionResult : ResultSummary, IntersectionValues {
     using Values = IntersectionValues;        ///< what it states besides summary and samples
-    using Record = IntersectionSample;        ///< what it lists
+    using Point = IntersectionSample;         ///< what it lists
     std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
 };
 
 /// The field at one of DistanceFieldQuery::points.
 struct FieldPoint {
-    Vector2 point;  ///< of the query
+    Vector2 position;  ///< of the query
     /// Signed distance: bilinear between the four cell centres around the point.
     double distance = 0.0;
     /// Maximum error of `distance`; at most DistanceFieldResult::error_bound + d. A distance field
@@ -101,7 +101,7 @@ struct FieldPoint {
     /// methods: bilinear between the gradients of the four cells.
     Vector2 gradient;
     Feature feature;     ///< of B's boundary, nearest to the point itself
-    bool unique = true;  ///< as PenetrationRecord::unique, for `feature` and the analytic gradient
+    bool unique = true;  ///< as PenetratingPoint::unique, for `feature` and the analytic gradient
 };
 
 /// Answer to a DistanceFieldQuery. `error_bound` bounds the difference from the exact signed
@@ -137,17 +137,17 @@ enum class Side : std::uint8_t {
 };
 
 /// A point of one boundary that is close to the other boundary.
-struct ContactRecord {
-    Vector2 point;  ///< on the boundary of the shape `on`
+struct ContactPoint {
+    Vector2 position;  ///< on the boundary of the shape `on`
     /// Unit normal of B's boundary, points out of B: for a point of A, the way in which B's signed
     /// distance grows; for one of B, or within rounding (or 2^-15 cells) of it, that of the edge.
     Vector2 normal;
-    double distance = 0.0;  ///< from `point` to `nearest`, >= 0
+    double distance = 0.0;  ///< from `position` to `nearest`, >= 0
     Vector2 nearest;        ///< the nearest point of the other shape's boundary
     Feature feature;        ///< of the other shape: where `nearest` lies
-    Side on = Side::a;      ///< the shape whose boundary `point` is on
-    bool inside = false;    ///< `point` lies inside the other shape, deeper than d/1024
-    /// As PenetrationRecord::unique. Also false if ContactNormals::gradient found almost no
+    Side on = Side::a;      ///< the shape whose boundary `position` is on
+    bool inside = false;    ///< `position` lies inside the other shape, deeper than d/1024
+    /// As PenetratingPoint::unique. Also false if ContactNormals::gradient found almost no
     /// gradient and the analytic normal was used instead.
     bool unique = true;
 };
@@ -164,29 +164,29 @@ struct ContactCluster {
     Vector2 normal;  ///< mean of the contacts' normals, unit, points out of B
     /// The deepest contact if some are inside the other shape, otherwise the closest; among A's
     /// contacts and those of B's whose nearest point lies in this cluster.
-    ContactRecord extreme;
+    ContactPoint extreme;
     /// Number of contacts of A's boundary. Of B's if A has none in this cluster, for example where
     /// a tip of B comes close to a long edge of A between two samples.
     std::uint32_t count = 0;
 };
 
-/// What a ContactResult states besides its summary, manifold and records.
+/// What a ContactResult states besides its summary, manifold and points.
 struct ContactValues {
     std::uint32_t count = 0;  ///< number of contacts, on both boundaries
 };
 
 /// Answer to a ContactQuery.
 ///
-/// The numbers of a record are computed in double precision from the vertices as given, except the
-/// normal with ContactNormals::gradient. No record is farther from the other boundary than the
+/// The numbers of a point are computed in double precision from the vertices as given, except the
+/// normal with ContactNormals::gradient. No point is farther from the other boundary than the
 /// contact distance. Every point of either boundary that is no farther from the other than the
-/// contact distance minus `error_bound` has a record within `error_bound` of it.
+/// contact distance minus `error_bound` has one listed within `error_bound` of it.
 struct ContactResult : ResultSummary, ContactValues {
-    using Values = ContactValues;          ///< what it states besides summary, manifold and records
-    using Record = ContactRecord;          ///< what it lists
+    using Values = ContactValues;          ///< what it states besides summary, manifold and points
+    using Point = ContactPoint;            ///< what it lists
     std::vector<ContactCluster> manifold;  ///< in order along A's rings, then those of B alone
-    /// A's, then B's, each in order along the rings as PenetrationResult::records are.
-    std::vector<ContactRecord> records;
+    /// A's, then B's, each in order along the rings as PenetrationResult::points are.
+    std::vector<ContactPoint> points;
 };
 
 /// What a ClosestPointResult states besides its summary.
@@ -210,7 +210,7 @@ struct ClosestPointValues {
 /// direction, and a common point.
 struct ClosestPointResult : ResultSummary, ClosestPointValues {
     using Values = ClosestPointValues;  ///< what it states besides its summary
-    using Record = NoRecord;            ///< what it lists, nothing
+    using Point = NoPoint;              ///< what it lists, nothing
 };
 
 /// What a SeparationResult states besides its summary.
@@ -232,7 +232,7 @@ struct SeparationValues {
 /// this pair's.
 struct SeparationResult : ResultSummary, SeparationValues {
     using Values = SeparationValues;  ///< what it states besides its summary
-    using Record = NoRecord;          ///< what it lists, nothing
+    using Point = NoPoint;            ///< what it lists, nothing
 };
 
 /// What an IntersectionTestResult states besides its summary: nothing.
@@ -243,7 +243,7 @@ struct IntersectionTestValues {};
 /// reported either way. `tolerance` and `cell` are 0.
 struct IntersectionTestResult : ResultSummary, IntersectionTestValues {
     using Values = IntersectionTestValues;  ///< what it states besides its summary
-    using Record = NoRecord;                ///< what it lists, nothing
+    using Point = NoPoint;                  ///< what it lists, nothing
 };
 
 /// The outcome of a TimeOfImpactQuery.
@@ -292,7 +292,7 @@ struct TimeOfImpactValues {
 /// before. It is false for a hit at which they only came so close that rounding cannot tell.
 struct TimeOfImpactResult : ResultSummary, TimeOfImpactValues {
     using Values = TimeOfImpactValues;  ///< what it states besides its summary
-    using Record = NoRecord;            ///< what it lists, nothing
+    using Point = NoPoint;              ///< what it lists, nothing
 };
 
 /// What a SeparationVectorResult states besides its summary.
@@ -312,7 +312,7 @@ struct SeparationVectorValues {
 /// their deviations.
 struct SeparationVectorResult : ResultSummary, SeparationVectorValues {
     using Values = SeparationVectorValues;  ///< what it states besides its summary
-    using Record = NoRecord;                ///< what it lists, nothing
+    using Point = NoPoint;                  ///< what it lists, nothing
 };
 
 /// What a ContainmentResult states besides its summary.
@@ -345,7 +345,7 @@ struct ContainmentValues {
 /// as not inside. `tolerance` and `cell` are 0.
 struct ContainmentResult : ResultSummary, ContainmentValues {
     using Values = ContainmentValues;  ///< what it states besides its summary
-    using Record = NoRecord;           ///< what it lists, nothing
+    using Point = NoPoint;             ///< what it lists, nothing
 };
 
 /// One result of any kind, in the order of AnyQuery.

@@ -38,8 +38,8 @@ struct ResultSummary {
     Technique technique = Technique::raster;  ///< the technique that answered; never automatic
 };
 
-/// The record type of results that list no records.
-struct NoRecord {};
+/// The type of the points of results that list none.
+struct NoPoint {};
 
 /// A part of a boundary: an edge without its end points, or a vertex. Indices count through all
 /// rings of the shape in the order given.

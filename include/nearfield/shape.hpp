@@ -66,9 +66,9 @@ private:
 /// distance.
 inline constexpr double largest_coordinate = 1e12;
 /// Minimum length of the longer side of a shape's bounding box. It rules out underflow: results in
-/// single precision (values of fields, resident outputs) are normal numbers down to a millionth of
-/// the smallest tolerance that double precision resolves in such a shape, and so are products of
-/// lengths in double precision.
+/// single precision (values of fields, outputs on the device) are normal numbers down to a
+/// millionth of the smallest tolerance that double precision resolves in such a shape, and so are
+/// products of lengths in double precision.
 inline constexpr double smallest_extent = 1e-20;
 /// Maximum number of vertices of all rings of a shape together.
 inline constexpr std::uint32_t max_vertices = 1U << 28U;

@@ -8,8 +8,8 @@
 #include <nearfield/diagnostics.hpp>
 #include <nearfield/host.hpp>
 #include <nearfield/nearfield.hpp>
+#include <nearfield/on_device.hpp>
+#include <nearfield/pairs_on_device.hpp>
 #include <nearfield/requirements.hpp>
-#include <nearfield/resident.hpp>
-#include <nearfield/resident_pairs.hpp>
 #include <nearfield/submission.hpp>
 #include <nearfield/tile.hpp>

@@ -53,14 +53,17 @@ class WorldRequest;
 /// pipelines of Technique::compute, with too_large if there are more instances or inputs than it
 /// takes (WorldOptions::technique), and as Context::run().
 ///
-///     nearfield::World world = *nearfield::World::create(context);
+///     nearfield::World world(context);
 ///     const auto crate = world.add({.shape = box, .pose = start});
 ///     nearfield::Status status = world.move(*crate, next);
 ///     std::vector<nearfield::RayHit> hits(segments.size());
 ///     status = world.cast_rays(segments, hits);
 class NEARFIELD_EXPORT World {
 public:
-    /// An empty world.
+    /// An empty world. The program ends if there is no memory for it: where that has to be
+    /// handled, call create().
+    explicit World(Context& context) noexcept;
+    /// An empty world. Fails with out_of_memory.
     [[nodiscard]] static Expected<World> create(Context& context);
 
     ~World();

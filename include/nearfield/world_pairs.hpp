@@ -18,7 +18,7 @@
 
 namespace nearfield {
 
-struct ResidentPairs;
+struct PairsOnDevice;
 
 /// Which pairs a PairTable asks about, which of them have a row, and who answers.
 struct PairTableOptions {
@@ -56,10 +56,10 @@ struct PairRow : Query::Result::Values {
     /// Of this pair alone; if it is an error, ignore the rest. Context::answer() with the two
     /// instances returns the message.
     StatusCode status = StatusCode::ok;
-    bool intersects = false;         ///< as ResultSummary::intersects
-    double error_bound = 0.0;        ///< as ResultSummary::error_bound
-    std::uint32_t index = 0;         ///< its place among the rows of its table
-    std::uint32_t record_count = 0;  ///< the number of PairTable::records()
+    bool intersects = false;        ///< as ResultSummary::intersects
+    double error_bound = 0.0;       ///< as ResultSummary::error_bound
+    std::uint32_t index = 0;        ///< its place among the rows of its table
+    std::uint32_t point_count = 0;  ///< the number of PairTable::points()
 };
 
 /// The parts of a PairTable that do not depend on the kind of its query.
@@ -96,12 +96,12 @@ public:
     /// nothing was submitted or recorded.
     [[nodiscard]] bool is_ready() const noexcept;
 
-    /// What the device leaves for the host's shaders, if the query is resident; see ResidentPairs
-    /// (resident_pairs.hpp) for how long. Fails with invalid_query if it is not, with not_ready if
+    /// What the device leaves for the host's shaders, if the query is resident; see PairsOnDevice
+    /// (pairs_on_device.hpp) for how long. Fails with invalid_query if it is not, with not_ready if
     /// nothing was submitted or recorded, or the world has fewer than two instances.
-    [[nodiscard]] Expected<ResidentPairs> resident() const;
+    [[nodiscard]] Expected<PairsOnDevice> on_device() const;
 
-    /// Why a span of rows, records or clusters is empty that should not be: host memory ran out
+    /// Why a span of rows, points or clusters is empty that should not be: host memory ran out
     /// where they were made exact. Success since the last update or collect() otherwise.
     [[nodiscard]] const Status& read_status() const noexcept;
 
@@ -169,16 +169,17 @@ protected:
 /// - The same commands may be submitted any number of times, if their command buffer was begun so;
 ///   the library does no work in between. Each execution finds the pairs of the instances, shapes
 ///   and filters that were recorded at the poses that are then in the buffer of DevicePoses, and
-///   leaves resident results. It waits for what the execution before, and the host's shaders after
-///   that (ResidentState), have read. A pose that is none is taken for (0, 0), not turned.
+///   leaves results on the device. It waits for what the execution before, and the host's shaders
+///   after that (OutputState), have read. A pose that is none is taken for (0, 0), not turned.
 /// - collect() makes the rows from the last execution, each time it is called. The device must not
 ///   execute the commands during this call, nor while rows are read.
-/// - Where memory is too small, nothing searches again: the headers of resident results say so
+/// - Where memory is too small, nothing searches again: the headers of results on the device say so
 ///   (`overflow`), and collect() fails. The next call of World::record() makes room for what was
 ///   found, collected or not; later steps of the search have not seen what earlier ones had no room
 ///   for, so that up to five calls can be needed. World::update() makes room for all at once, and
 ///   orders the instances by the poses on the device, which makes later searches faster.
-/// - What was recorded, with all handles of resident results, holds until the table is recorded,
+/// - What was recorded, with all handles of results on the device, holds until the table is
+/// recorded,
 ///   submitted or updated again, successfully or not, unless that fails with not_ready or
 ///   invalid_submission; until the table is destroyed or assigned to; and until reload_shaders().
 ///   By then the device must be done with it. Whatever happens to the world, its shapes or
@@ -196,7 +197,7 @@ protected:
 template <class Query>
 class NEARFIELD_EXPORT PairTable : public PairTableBase {
 public:
-    using Record = typename Query::Result::Record;  ///< what a row has several of; see the result
+    using Point = typename Query::Result::Point;  ///< what a row has several of; see the result
 
     /// A table without rows. Of the query, `a` and `b` are ignored, as are the end poses of a time
     /// of impact. Its technique is that of the options, or automatic; targets
@@ -210,12 +211,12 @@ public:
     [[nodiscard]] std::span<const PairRow<Query>> rows() noexcept;
     /// One row; fails (invalid_query) if there are fewer. Makes no other exact.
     [[nodiscard]] Expected<PairRow<Query>> row(std::uint32_t index);
-    /// The records of a row of this table, in the order of the query's result; none if the query
+    /// The points of a row of this table, in the order of the query's result; none if the query
     /// does without. Valid until the next call of this function and the next update. See
     /// read_status().
-    [[nodiscard]] std::span<const Record> records(const PairRow<Query>& row) noexcept;
-    /// Of contacts: the manifold of a row (ContactResult::manifold), whether the query has records
-    /// or not. Otherwise as records().
+    [[nodiscard]] std::span<const Point> points(const PairRow<Query>& row) noexcept;
+    /// Of contacts: the manifold of a row (ContactResult::manifold), also where the query asks
+    /// for the summary alone. Valid as long as points().
     [[nodiscard]] std::span<const ContactCluster> manifold(
         const PairRow<Query>& row) noexcept requires std::is_same_v<Query, ContactQuery>;
 

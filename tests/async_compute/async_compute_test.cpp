@@ -110,7 +110,7 @@ struct Found {
     friend bool operator==(const Found&, const Found&) = default;
 };
 
-Found read(HostGpu& gpu, const ResidentField& field, const ResidentRecords& records) {
+Found read(HostGpu& gpu, const FieldOnDevice& field, const PointsOnDevice& records) {
     Found found;
     const VkExtent2D extent{field.width, field.height};
     found.distances = gpu.read(field.signed_distance, extent, field.state);
@@ -178,8 +178,8 @@ TEST_F(AsyncCompute, IsReadByTheFamilyThatDrawsAfterASemaphore) {
     const std::vector<Found> wanted = expected();
     const std::uint32_t families[] = {drawing().queue_family};
     HostDevice host = computing();
-    host.resident_families = families;
-    host.resident_family_count = 1;
+    host.reader_families = families;
+    host.reader_family_count = 1;
     Scene scene(host);
     HostGpu gpu(drawing());
     const SemaphoreSignal done{gpu.make_semaphore()};
@@ -196,8 +196,8 @@ TEST_F(AsyncCompute, IsReadByTheFamilyThatDrawsAfterASemaphore) {
 }
 
 /// Both halves of a transfer of ownership; nothing is done about the contents.
-void transfer(const HostGpu& gpu, VkCommandBuffer commands, const ResidentField& field,
-              const ResidentRecords& records, std::uint32_t from, std::uint32_t to) {
+void transfer(const HostGpu& gpu, VkCommandBuffer commands, const FieldOnDevice& field,
+              const PointsOnDevice& records, std::uint32_t from, std::uint32_t to) {
     std::vector<VkImageMemoryBarrier> images;
     for (const VkImage image : {field.signed_distance.image, field.feature.image}) {
         VkImageMemoryBarrier& barrier = images.emplace_back();
@@ -230,8 +230,8 @@ TEST_F(AsyncCompute, IsReadByTheFamilyThatDrawsAfterATransferOfOwnership) {
         const ResidentBatch asked(scene, i);
         const auto frame = static_cast<std::uint64_t>(i);
         Ticket ticket;
-        std::optional<ResidentField> field;
-        std::optional<ResidentRecords> records;
+        std::optional<FieldOnDevice> field;
+        std::optional<PointsOnDevice> records;
         compute.signal(done);
         compute.submit([&](VkCommandBuffer commands) {
             ticket = *scene.context->record(asked.batch, {.commands = commands, .frame = frame});

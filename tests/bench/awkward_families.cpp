@@ -61,12 +61,12 @@ void add_query(bool contacts, Technique technique, const Instance& a, const Inst
     if (contacts) {
         ContactQuery query{a, b, tolerance};
         query.contact_distance = 2.0 * tolerance;
-        query.records = false;
+        query.summary_only = true;
         query.technique = technique;
         batch.add(query);
     } else {
         PenetrationQuery query{a, b, tolerance};
-        query.records = false;
+        query.summary_only = true;
         query.technique = technique;
         batch.add(query);
     }

@@ -132,8 +132,8 @@ constexpr double reach = 0.05;
 
 template <class Query>
 bool has_records(const Query& query) {
-    if constexpr (requires { query.records; }) {
-        return query.records;
+    if constexpr (requires { query.summary_only; }) {
+        return !query.summary_only;
     } else {
         return false;
     }
@@ -196,16 +196,16 @@ int main(int count, char** arguments) {
             "|---|---|---|---|---|---|---|---|---|---|---|---|");
         compare_all(context, IntersectionTestQuery{}, shows_passes);
         compare_all(context, SeparationQuery{.tolerance = 0.03}, shows_passes);
-        ContactQuery contacts{.tolerance = 0.03, .contact_distance = 0.05, .records = true};
+        ContactQuery contacts{.tolerance = 0.03, .contact_distance = 0.05, .summary_only = false};
         compare(context, 1'000, 50.0, contacts, 20, shows_passes);
-        contacts.records = false;
+        contacts.points = false;
         compare_all(context, contacts, shows_passes);
         for (const PenetrationPoints points :
              {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
-            PenetrationQuery query{.tolerance = 0.03, .points = points, .records = true};
+            PenetrationQuery query{.tolerance = 0.03, .points = points, .summary_only = false};
             compare(context, 1'000, 50.0, query, 20, shows_passes);
             try_to_compare(context, 1'000, 16.0, query, 5, false);
-            query.records = false;
+            query.summary_only = true;
             compare_all(context, query, shows_passes);
         }
     } catch (const std::exception& error) {

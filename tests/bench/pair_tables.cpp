@@ -113,7 +113,8 @@ double batch_time(Context& context, Crowd& crowd, const Query& query) {
         crowd.next_frame();
         const double start = processor_milliseconds();
         batch.clear();
-        for (const InstancePair& pair : take(context.find_pairs(crowd.instances(), 0.0))) {
+        for (const InstancePair& pair :
+             take(context.find_overlapping_boxes(crowd.instances(), 0.0))) {
             add_queries(batch, query, crowd.instances()[pair.first],
                         crowd.instances()[pair.second]);
         }

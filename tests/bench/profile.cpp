@@ -188,7 +188,7 @@ Batch penetration(Context& context, Technique technique) {
 Batch intersection(Context& context, Technique technique) {
     Batch batch;
     auto query = coast_lines<nearfield::IntersectionQuery>(context, technique);
-    query.records = false;
+    query.summary_only = true;
     batch.add(query);
     return batch;
 }
@@ -219,7 +219,7 @@ Batch pairs(Context& context, Technique technique, void (*fill)(Query&)) {
 
 Batch penetration_pairs(Context& context, Technique technique) {
     return pairs<nearfield::PenetrationQuery>(
-        context, technique, [](nearfield::PenetrationQuery& query) { query.records = false; });
+        context, technique, [](nearfield::PenetrationQuery& query) { query.summary_only = true; });
 }
 
 Batch field_pairs(Context& context, Technique technique) {
@@ -330,10 +330,10 @@ void profile_all_passes(const nearfield::HostDevice& host) {
     std::printf("%s", nearfield::bench::head_of_passes);
     profile_passes(
         loader.host(), "penetration, samples",
-        nearfield::PenetrationQuery{.tolerance = 0.03, .records = false, .resident = true});
+        nearfield::PenetrationQuery{.tolerance = 0.03, .summary_only = true, .on_device = true});
     profile_passes(
         loader.host(), "contacts",
-        nearfield::ContactQuery{.tolerance = 0.03, .contact_distance = 0.05, .records = false});
+        nearfield::ContactQuery{.tolerance = 0.03, .contact_distance = 0.05, .summary_only = true});
     profile_passes(loader.host(), "intersection test", nearfield::IntersectionTestQuery{});
 }
 

@@ -122,7 +122,7 @@ std::vector<Question> questions() {
         return [points, records](Batch& batch, const Instance& a, const Instance& b) {
             PenetrationQuery query{a, b, tolerance};
             query.points = points;
-            query.records = records;
+            query.summary_only = !records;
             query.technique = Technique::cpu;
             batch.add(query);
         };

@@ -40,8 +40,8 @@ public:
                       std::vector<std::uint32_t> shared_with = {}) {
         driver_.set_queue_families({universal, compute_only, universal}, family);
         HostDevice host = driver_.host();
-        host.resident_families = shared_with.data();
-        host.resident_family_count = static_cast<std::uint32_t>(shared_with.size());
+        host.reader_families = shared_with.data();
+        host.reader_family_count = static_cast<std::uint32_t>(shared_with.size());
         Expected<Context> made = Context::create(host, settings);
         EXPECT_TRUE(made.has_value()) << made.error().text();
         context_.emplace(std::move(*made));
@@ -116,21 +116,21 @@ TEST(ComputeFamily, IsNeverGivenTheRasterByAutomatic) {
     EXPECT_FALSE(blended(on).status.ok());
     auto query = on.query<IntersectionQuery>(Technique::automatic);
     EXPECT_EQ(on.answer(query).technique, Technique::compute);
-    query.resident = true;
+    query.on_device = true;
     EXPECT_EQ(on.answer(query).technique, Technique::compute);
 }
 
 /// The states in which the resident results of a field and of contacts are found.
 struct States {
-    ResidentState images;
-    ResidentState buffer;
+    OutputState images;
+    OutputState buffer;
 };
 
 States states(OnFamily& on) {
     Batch batch;
     DistanceFieldQuery field = on.query<DistanceFieldQuery>(Technique::compute);
     ContactQuery contacts = on.query<ContactQuery>(Technique::compute);
-    field.resident = contacts.resident = true;
+    field.on_device = contacts.on_device = true;
     contacts.contact_distance = 0.1;
     const auto field_handle = batch.add(field);
     const auto contacts_handle = batch.add(contacts);
@@ -174,15 +174,15 @@ TEST(ComputeFamily, RefusesFamiliesThatTheDeviceDoesNotHave) {
     MockDriver driver;
     const std::uint32_t families[] = {0, 5};
     HostDevice host = driver.host();
-    host.resident_families = families;
-    host.resident_family_count = 2;
+    host.reader_families = families;
+    host.reader_family_count = 2;
     const Status status = Context::create(host).error();
     EXPECT_EQ(status.code(), StatusCode::invalid_settings);
-    EXPECT_NE(status.message().find("HostDevice::resident_families[1] is 5"), std::string::npos)
+    EXPECT_NE(status.message().find("HostDevice::reader_families[1] is 5"), std::string::npos)
         << status.text();
-    host.resident_families = nullptr;
+    host.reader_families = nullptr;
     EXPECT_NE(Context::create(host).error().message().find(
-                  "HostDevice::resident_family_count is 2, and resident_families is null"),
+                  "HostDevice::reader_family_count is 2, and reader_families is null"),
               std::string::npos);
 }
 

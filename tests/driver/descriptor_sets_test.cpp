@@ -30,19 +30,19 @@ TEST(DescriptorSets, NameNothingThatIsGone) {
             DistanceFieldQuery field{{}, b, tolerance};
             field.rectangle = Rectangle{{-1.0, -1.0}, {3.0, 3.0}};
             field.technique = Technique::compute;
-            field.resident = true;
+            field.on_device = true;
             batch.add(field);
         }
         if (i % 3 != 1) {
             PenetrationQuery penetration{a, b, 0.1 * tolerance};
             penetration.technique = Technique::compute;
-            penetration.resident = true;
+            penetration.on_device = true;
             batch.add(penetration);
         }
         if (i % 4 == 2) {
             IntersectionQuery overlap{a, b, tolerance};
             overlap.technique = Technique::compute;
-            overlap.resident = overlap.resident_samples = true;
+            overlap.resident = overlap.samples_on_device = true;
             batch.add(overlap);
         }
         const Status status = context->run(batch, results);

@@ -36,7 +36,7 @@ public:
     explicit PairsOfDevice(Way way)
         : DeviceWorld(way == Way::in_parts ? 1U << 21U : 1U << 30U),
           way_(way),
-          table_(PenetrationQuery{.tolerance = 0.05, .resident = are_resident()},
+          table_(PenetrationQuery{.tolerance = 0.05, .on_device = are_resident()},
                  nearfield::test::on_device) {
         driver().let_shaders_find(
             {passes::ComputeLayout::output, pairs_found, word_of_pairs, true});
@@ -69,15 +69,15 @@ public:
     void expect_to_work() override {
         DeviceWorld::expect_to_work();
         EXPECT_EQ(table_.candidates(), pairs_found);
-        const Expected<ResidentPairs> resident = table_.resident();
+        const Expected<PairsOnDevice> resident = table_.resident();
         ASSERT_EQ(resident.has_value(), are_resident());
         if (!are_resident()) {
             return;
         }
-        for (const ResidentArray& array : {resident->pairs, resident->records}) {
+        for (const ArrayOnDevice& array : {resident->pairs, resident->records}) {
             EXPECT_TRUE(driver().has_memory(array.buffer, 0, array.size));
-            EXPECT_TRUE(driver().has_memory(array.header.buffer, array.header.offset,
-                                            sizeof(ResidentHeaderData)));
+            EXPECT_TRUE(
+                driver().has_memory(array.header.buffer, array.header.offset, sizeof(HeaderData)));
         }
     }
 

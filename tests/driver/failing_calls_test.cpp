@@ -70,7 +70,7 @@ void expect_lost(World& world, Ticket in_flight) {
     EXPECT_EQ(context.add_shape(std::span<const Ring>()).error().code(), StatusCode::device_lost);
     EXPECT_EQ(context.update_shape({}, std::span<const Ring>()).code(), StatusCode::device_lost);
     EXPECT_EQ(context.remove_shape({}).code(), StatusCode::device_lost);
-    EXPECT_EQ(context.find_pairs({}, 1.0).error().code(), StatusCode::device_lost);
+    EXPECT_EQ(context.find_overlapping_boxes({}, 1.0).error().code(), StatusCode::device_lost);
     EXPECT_TRUE(world.take(World::Step::destroy).ok());
     EXPECT_EQ(world.driver().work_after_loss(), std::vector<std::string>{});
 }

@@ -105,11 +105,11 @@ TEST(HostMemory, ThatRunsOutDoesNotSpoilWhatIsKeptForTheNextPairs) {
         StatusCode code = StatusCode::ok;
         {
             const FailingAllocations scarce(successes);
-            code = context->find_pairs(row, 0.0).error().code();
+            code = context->find_overlapping_boxes(row, 0.0).error().code();
             has_failed = FailingAllocations::has_failed();
         }
         EXPECT_EQ(code, has_failed ? StatusCode::out_of_memory : StatusCode::ok);
-        const auto pairs = context->find_pairs(row, 0.0);
+        const auto pairs = context->find_overlapping_boxes(row, 0.0);
         ASSERT_TRUE(pairs.has_value()) << pairs.error().text();
         EXPECT_EQ(pairs->size(), 9U);
     }

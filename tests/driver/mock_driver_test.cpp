@@ -81,14 +81,14 @@ TEST(MockDriver, CopiesWhatStaysOnTheDeviceToWhereTheHostReadsIt) {
         const Batch all = world.recordable(8);
         auto query = std::get<PenetrationQuery>(all.queries()[0]);
         const auto edges = [&](bool resident) {
-            query.resident = resident;
+            query.on_device = resident;
             Batch batch;
             const auto handle = batch.add(query);
             Results results;
             const Status status = world.context().run(batch, results);
             EXPECT_TRUE(status.ok()) << status.text();
             std::set<std::uint32_t> found;
-            for (const PenetrationRecord& record : results[handle].records) {
+            for (const PenetratingPoint& record : results[handle].records) {
                 found.insert(record.feature.index);
             }
             return found;

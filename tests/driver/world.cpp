@@ -17,7 +17,7 @@ const std::vector<Vector2> field_points{{1.1, 1.2}, {1.6, 1.4}};
 constexpr QueryHandle<PenetrationQuery> resident_penetration{0};
 constexpr QueryHandle<ContactQuery> resident_contacts{1};
 constexpr QueryHandle<DistanceFieldQuery> resident_field{2};
-constexpr QueryHandle<IntersectionQuery> resident_samples{3};
+constexpr QueryHandle<IntersectionQuery> samples_on_device{3};
 
 /// Work of the host itself.
 template <class Make>
@@ -26,7 +26,7 @@ Batch unwatched(const Make& make) {
     return make();
 }
 
-std::vector<const void*> handles_of(const ResidentField& field) {
+std::vector<const void*> handles_of(const FieldOnDevice& field) {
     return {field.signed_distance.image, field.signed_distance.view, field.feature.image,
             field.feature.view, field.header.buffer};
 }
@@ -175,19 +175,18 @@ Status World::record() {
     return look_at_residents();
 }
 
-bool World::is_usable(const ResidentField& field) const {
-    const auto can_be_read = [this](const ResidentImage& image) {
+bool World::is_usable(const FieldOnDevice& field) const {
+    const auto can_be_read = [this](const ImageOnDevice& image) {
         return driver_.has_memory(image.image, image.view);
     };
     return can_be_read(field.signed_distance) && can_be_read(field.feature) &&
-           driver_.has_memory(field.header.buffer, field.header.offset, sizeof(ResidentHeaderData));
+           driver_.has_memory(field.header.buffer, field.header.offset, sizeof(HeaderData));
 }
 
 template <class Resident>
 bool World::is_usable(const Resident& resident) const {
     return driver_.has_memory(resident.buffer, resident.offset, resident.size) &&
-           driver_.has_memory(resident.header.buffer, resident.header.offset,
-                              sizeof(ResidentHeaderData));
+           driver_.has_memory(resident.header.buffer, resident.header.offset, sizeof(HeaderData));
 }
 
 template <class Query>
@@ -213,7 +212,7 @@ Status World::look_at_residents() {
     Status status = look_at_resident(resident_penetration);
     status = status.ok() ? look_at_resident(resident_contacts) : status;
     status = status.ok() ? look_at_resident(resident_field) : status;
-    return status.ok() ? look_at_resident(resident_samples) : status;
+    return status.ok() ? look_at_resident(samples_on_device) : status;
 }
 
 Status World::collect() {
@@ -289,10 +288,10 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
                                    technique, true});
         batch.add(ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, true,
                                technique, true});
-        field.resident = true;
+        field.on_device = true;
         field.target = &target_;
         batch.add(field);
-        field.resident = false;
+        field.on_device = false;
         batch.add(IntersectionQuery{here(), there(), tolerance, IntersectionKind::boundary_volume,
                                     false, IntersectionStrategy::stencil, technique, true});
     }

@@ -117,7 +117,7 @@ private:
     Status look_at_residents();
     template <class Query>
     Status look_at_resident(QueryHandle<Query> handle);
-    [[nodiscard]] bool is_usable(const ResidentField& field) const;
+    [[nodiscard]] bool is_usable(const FieldOnDevice& field) const;
     template <class Resident>
     [[nodiscard]] bool is_usable(const Resident& resident) const;
     /// One query of each kind that a technique answers, with this many cells per unit.
@@ -136,7 +136,7 @@ private:
     VkSemaphore before_;
     VkSemaphore after_;
     MemoryFunctions memory_;
-    ResidentFieldTarget target_;  ///< of resident fields: one image is the host's
+    FieldTarget target_;  ///< of resident fields: one image is the host's
     std::optional<Context> context_;
     ShapeHandle a_;
     ShapeHandle b_;

@@ -26,11 +26,11 @@ struct MarkerPixel {
     bool undecided = false;
 };
 
-MarkerPixel marker_at(const Vector2& pixel, const std::vector<ContactRecord>& contacts,
+MarkerPixel marker_at(const Vector2& pixel, const std::vector<ContactPoint>& contacts,
                       const View& view) {
     MarkerPixel found;
-    for (const ContactRecord& contact : contacts) {
-        const Vector2 at = view.to_pixel(contact.point);
+    for (const ContactPoint& contact : contacts) {
+        const Vector2 at = view.to_pixel(contact.position);
         const double distance = std::max(std::abs(at.x - pixel.x), std::abs(at.y - pixel.y));
         if (std::abs(distance - examples::marker_radius) < slack) {
             found.undecided = true;
@@ -69,7 +69,7 @@ examples::Scene dragged_scene(const Vector2& by) {
     return scene;
 }
 
-std::vector<ContactRecord> contacts_by_cpu(const examples::Scene& scene) {
+std::vector<ContactPoint> contacts_by_cpu(const examples::Scene& scene) {
     Context context = examples::value_of(Context::create_headless());
     ContactQuery query;
     query.a = {examples::value_of(context.add_shape(scene.bodies()[0].rings)), scene.poses()[0]};
@@ -88,7 +88,7 @@ std::vector<ContactRecord> contacts_by_cpu(const examples::Scene& scene) {
 }
 
 Comparison compare(const Pixels& picture, const examples::Scene& scene,
-                   const std::vector<ContactRecord>& contacts, const Vector2& label) {
+                   const std::vector<ContactPoint>& contacts, const Vector2& label) {
     const View view{static_cast<double>(picture.width), static_cast<double>(picture.height)};
     Comparison comparison;
     int differences = 0;
@@ -119,8 +119,8 @@ Comparison compare(const Pixels& picture, const examples::Scene& scene,
             }
         }
     }
-    for (const ContactRecord& contact : contacts) {
-        const Vector2 at = view.to_pixel(contact.point);
+    for (const ContactPoint& contact : contacts) {
+        const Vector2 at = view.to_pixel(contact.position);
         const Vector2 middle{at.x + contact.normal.x * examples::normal_length / 2,
                              at.y - contact.normal.y * examples::normal_length / 2};
         const int x = static_cast<int>(middle.x);

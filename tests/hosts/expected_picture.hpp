@@ -11,7 +11,7 @@ namespace nearfield::test {
 [[nodiscard]] examples::Scene dragged_scene(const Vector2& by);
 
 /// Its contacts according to the CPU.
-[[nodiscard]] std::vector<ContactRecord> contacts_by_cpu(const examples::Scene& scene);
+[[nodiscard]] std::vector<ContactPoint> contacts_by_cpu(const examples::Scene& scene);
 
 /// The comparison of a picture with a scene and its contacts.
 struct Comparison {
@@ -29,6 +29,6 @@ struct Comparison {
 /// one, or background, or an outline or a normal. The rectangle from `label` to the lower left (an
 /// item of Qt Quick) is not compared.
 [[nodiscard]] Comparison compare(const Pixels& picture, const examples::Scene& scene,
-                                 const std::vector<ContactRecord>& contacts, const Vector2& label);
+                                 const std::vector<ContactPoint>& contacts, const Vector2& label);
 
 }  // namespace nearfield::test

@@ -32,9 +32,9 @@ bool is_empty(const AnyResult& any) {
             if constexpr (requires { result.samples; }) {
                 return result.samples.empty() && result.count == 0;
             } else if constexpr (requires { result.manifold; }) {
-                return result.records.empty() && result.manifold.empty() && result.count == 0;
-            } else if constexpr (requires { result.records; }) {
-                return result.records.empty() && result.count == 0;
+                return result.points.empty() && result.manifold.empty() && result.count == 0;
+            } else if constexpr (requires { result.points; }) {
+                return result.points.empty() && result.count == 0;
             } else if constexpr (requires { result.values; }) {
                 return result.values.empty() && result.features.empty() && result.points.empty() &&
                        result.gradients.empty();

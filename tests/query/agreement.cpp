@@ -20,7 +20,7 @@ std::vector<Vector2> other_cells(const IntersectionResult& one, const Intersecti
     const auto sorted = [](const IntersectionResult& result) {
         std::vector<Point> cells;
         for (const IntersectionSample& sample : result.samples) {
-            cells.emplace_back(sample.point.x, sample.point.y);
+            cells.emplace_back(sample.position.x, sample.position.y);
         }
         std::sort(cells.begin(), cells.end());
         return cells;

@@ -10,11 +10,11 @@
 namespace nearfield::test {
 namespace {
 
-NamedFeature named(const PenetrationRecord& record) {
+NamedFeature named(const PenetratingPoint& record) {
     return {record.feature, record.nearest, record.depth, record.unique};
 }
 
-NamedFeature named(const ContactRecord& record) {
+NamedFeature named(const ContactPoint& record) {
     return {record.feature, record.nearest, record.distance, record.unique};
 }
 
@@ -46,10 +46,10 @@ private:
     std::size_t otherwise_ = 0;
 };
 
-std::vector<ContactRecord> of_side(const ContactResult& result, Side side) {
-    std::vector<ContactRecord> records;
-    std::copy_if(result.records.begin(), result.records.end(), std::back_inserter(records),
-                 [side](const ContactRecord& record) { return record.on == side; });
+std::vector<ContactPoint> of_side(const ContactResult& result, Side side) {
+    std::vector<ContactPoint> records;
+    std::copy_if(result.points.begin(), result.points.end(), std::back_inserter(records),
+                 [side](const ContactPoint& record) { return record.on == side; });
     return records;
 }
 
@@ -75,13 +75,13 @@ void check_agreement(Report& report, const Asked& asked, const PenetrationResult
     const double touching = asked.pair.tolerance() / 1000;
     NamedPairs pairs(report, {asked.pair.b(), touching, asked.pair.rounding()});
     match(
-        one.records, other.records,
-        [&](const PenetrationRecord& i, const PenetrationRecord& j) {
+        one.points, other.points,
+        [&](const PenetratingPoint& i, const PenetratingPoint& j) {
             pairs.add(i.point, named(i), named(j));
             report.require(!same_feature(i.feature, j.feature) || i.direction == j.direction,
                            "directions differ at ", i.point.x, ", ", i.point.y);
         },
-        [&](const PenetrationRecord& alone) {
+        [&](const PenetratingPoint& alone) {
             report.require(alone.depth <= touching, "only one has a record at ", alone.point.x,
                            ", ", alone.point.y, ", depth ", alone.depth);
         });
@@ -107,7 +107,7 @@ void check_agreement(Report& report, const Asked& asked, const ContactResult& on
         NamedPairs pairs(report, {other_shape, margin, asked.pair.rounding()});
         match(
             of_side(one, side), of_side(other, side),
-            [&](ContactRecord i, const ContactRecord& j) {
+            [&](ContactPoint i, const ContactPoint& j) {
                 if (!analytic) {
                     i.unique = j.unique;
                 }
@@ -120,7 +120,7 @@ void check_agreement(Report& report, const Asked& asked, const ContactResult& on
                                " away: ", i.normal.x, ", ", i.normal.y, " and ", j.normal.x, ", ",
                                j.normal.y);
             },
-            [&](const ContactRecord& alone) {
+            [&](const ContactPoint& alone) {
                 report.require(alone.distance >= query.contact_distance - margin,
                                "only one has a contact at ", alone.point.x, ", ", alone.point.y,
                                ", distance ", alone.distance);

@@ -21,14 +21,14 @@ public:
     void add(const Feature& f) { add_all(f.kind, f.index); }
     void add(const Pose& p) { add_all(p.translation, p.angle); }
     void add(const Region& r) { add_all(r.min, r.max, r.width, r.height); }
-    void add(const PenetrationRecord& r) {
+    void add(const PenetratingPoint& r) {
         add_all(r.point, r.depth, r.direction, r.nearest, r.feature, r.unique);
     }
     void add(const IntersectionSample& s) { add_all(s.point, s.edge); }
     void add(const FieldPoint& p) {
         add_all(p.point, p.distance, p.error_bound, p.inside, p.gradient, p.feature, p.unique);
     }
-    void add(const ContactRecord& r) {
+    void add(const ContactPoint& r) {
         add_all(r.point, r.normal, r.distance, r.nearest, r.feature, r.on, r.inside, r.unique);
     }
     void add(const ContactCluster& c) { add_all(c.first, c.last, c.normal, c.extreme, c.count); }
@@ -47,7 +47,7 @@ public:
 
     void add_rest(const IntersectionTestResult&) {}
     void add_rest(const PenetrationResult& r) {
-        add_all(r.count, r.records);
+        add_all(r.count, r.points);
         if (r.count > 0) {
             add(r.deepest);
         }
@@ -59,7 +59,7 @@ public:
         add_all(r.origin, r.width, r.height, r.values, r.features, r.gradients, r.unique, r.points,
                 r.gradient_error_bound);
     }
-    void add_rest(const ContactResult& r) { add_all(r.count, r.manifold, r.records); }
+    void add_rest(const ContactResult& r) { add_all(r.count, r.manifold, r.points); }
     void add_rest(const ClosestPointResult& r) {
         add_all(r.point, r.nearest, r.distance, r.direction, r.feature_a, r.feature_b, r.unique,
                 r.sampled_distance);

@@ -37,7 +37,7 @@ protected:
     }
 };
 
-void expect_same(const PenetrationRecord& a, const PenetrationRecord& b) {
+void expect_same(const PenetratingPoint& a, const PenetratingPoint& b) {
     EXPECT_EQ(a.point, b.point);
     EXPECT_EQ(a.depth, b.depth);
     EXPECT_EQ(a.direction, b.direction);
@@ -50,10 +50,10 @@ void expect_same(const PenetrationRecord& a, const PenetrationRecord& b) {
 
 void expect_same(const PenetrationResult& a, const PenetrationResult& b) {
     EXPECT_EQ(a.count, b.count);
-    ASSERT_EQ(a.records.size(), b.records.size());
-    for (std::size_t i = 0; i < a.records.size() && !testing::Test::HasFailure(); ++i) {
+    ASSERT_EQ(a.points.size(), b.points.size());
+    for (std::size_t i = 0; i < a.points.size() && !testing::Test::HasFailure(); ++i) {
         SCOPED_TRACE("record " + std::to_string(i));
-        expect_same(a.records[i], b.records[i]);
+        expect_same(a.points[i], b.points[i]);
     }
     if (a.count > 0) {
         expect_same(a.deepest, b.deepest);
@@ -67,7 +67,7 @@ void expect_same(const IntersectionResult& a, const IntersectionResult& b) {
     EXPECT_EQ(a.box.max, b.box.max);
     ASSERT_EQ(a.samples.size(), b.samples.size());
     for (std::size_t i = 0; i < a.samples.size() && !testing::Test::HasFailure(); ++i) {
-        EXPECT_EQ(a.samples[i].point, b.samples[i].point) << "sample " << i;
+        EXPECT_EQ(a.samples[i].position, b.samples[i].position) << "sample " << i;
         EXPECT_EQ(a.samples[i].edge, b.samples[i].edge) << "sample " << i;
     }
 }

@@ -154,20 +154,20 @@ protected:
 
     /// Every query that can be recorded, and a field in an image of the host's. Only its address
     /// is kept of `target`.
-    void ask(const ResidentFieldTarget& target) {
+    void ask(const FieldTarget& target) {
         batch_ = every_query(a_, b_, 0, true);
         DistanceFieldQuery field;
         field.b = {b_, {}};
         field.tolerance = 0.1;
         field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
-        field.resident = true;
+        field.on_device = true;
         field.target = &target;
         field_ = batch_.add(field);
     }
 
     void measure_layout() {
-        measure("`resident_layout`",
-                [&] { EXPECT_TRUE(context_->resident_layout(batch_, field_).has_value()); });
+        measure("`layout_on_device`",
+                [&] { EXPECT_TRUE(context_->layout_on_device(batch_, field_).has_value()); });
     }
 
     void measure_shapes(const Rings& update) {
@@ -176,8 +176,8 @@ protected:
         measure("`add_shape`", [&] { added = *context_->add_shape(rings_); });
         measure("`update_shape`", [&] { EXPECT_TRUE(context_->update_shape(added, update).ok()); });
         measure("`remove_shape`", [&] { EXPECT_TRUE(context_->remove_shape(added).ok()); });
-        measure("`find_pairs`",
-                [&] { EXPECT_EQ(context_->find_pairs(instances, 1.0)->size(), 1U); });
+        measure("`find_overlapping_boxes`",
+                [&] { EXPECT_EQ(context_->find_overlapping_boxes(instances, 1.0)->size(), 1U); });
     }
 
     void measure_recorded(test_support::HostFrames& host) {
@@ -250,8 +250,8 @@ private:
 TEST_F(CallCosts, AreThoseOfTheDocuments) {
     test_support::HostGpu gpu(host_device());
     test_support::HostFrames host(host_device(), 1);
-    ResidentFieldTarget target;
-    ResidentImageTarget& image = target.signed_distance;
+    FieldTarget target;
+    ImageTarget& image = target.signed_distance;
     image.format = VK_FORMAT_R32_SFLOAT;
     image.extent = {64, 64};
     image.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;

@@ -12,18 +12,18 @@ namespace {
 
 using oracle::ShapeOracle;
 
-double signed_distance(const ContactRecord& contact) {
+double signed_distance(const ContactPoint& contact) {
     return contact.inside ? -contact.distance : contact.distance;
 }
 
 /// The point of B's boundary whose normal a contact reports.
-Vector2 place_on_b(const ContactRecord& contact) {
-    return contact.on == Side::a ? contact.nearest : contact.point;
+Vector2 place_on_b(const ContactPoint& contact) {
+    return contact.on == Side::a ? contact.nearest : contact.position;
 }
 
 /// The signed distance to B must grow along the normal. Skipped if another part of B's boundary, or
 /// a corner beside the normal, is within reach of the steps.
-void check_normal(Report& report, const PlacedPair& pair, const ContactRecord& contact) {
+void check_normal(Report& report, const PlacedPair& pair, const ContactPoint& contact) {
     report.require(std::abs(oracle::length(contact.normal) - 1.0) < 1e-9, "a normal's length is ",
                    oracle::length(contact.normal));
     const double step = std::max(1e-4 * pair.tolerance(), 1e4 * pair.rounding());
@@ -39,17 +39,17 @@ void check_normal(Report& report, const PlacedPair& pair, const ContactRecord& c
 }
 
 void check_record(Report& report, const PlacedPair& pair, double contact_distance,
-                  const ContactRecord& contact) {
+                  const ContactPoint& contact) {
     const bool on_a = contact.on == Side::a;
     const ShapeOracle& own = on_a ? pair.a() : pair.b();
     const ShapeOracle& other = on_a ? pair.b() : pair.a();
     const double allowed = allowed_rounding(pair);
     check_nearest(
         report, {own, other, pair.tolerance(), allowed},
-        {contact.point, contact.distance, contact.nearest, contact.feature, contact.unique});
+        {contact.position, contact.distance, contact.nearest, contact.feature, contact.unique});
     report.require(contact.distance <= contact_distance, "a contact is ", contact.distance,
                    " away");
-    const double outside = other.signed_distance(contact.point);
+    const double outside = other.signed_distance(contact.position);
     report.require(contact.inside ? outside <= allowed : outside >= -1e-3 * pair.tolerance(),
                    "a contact at signed distance ", outside, " is said to be ",
                    contact.inside ? "inside" : "outside");
@@ -65,9 +65,9 @@ void check_complete(Report& report, const PlacedPair& pair, double contact_dista
         const ShapeOracle& own = side == Side::a ? pair.a() : pair.b();
         const ShapeOracle& other = side == Side::a ? pair.b() : pair.a();
         PointIndex records(result.error_bound + allowed_rounding(pair));
-        for (const ContactRecord& contact : result.records) {
+        for (const ContactPoint& contact : result.points) {
             if (contact.on == side) {
-                records.add(contact.point);
+                records.add(contact.position);
             }
         }
         for (const Vector2& p : oracle::sample_boundary(own, pair.tolerance() / 2, max_samples)) {
@@ -83,7 +83,7 @@ void check_manifold(Report& report, const PlacedPair& pair, double contact_dista
                     const ContactResult& result) {
     const double allowed = allowed_rounding(pair);
     std::size_t of_a = 0;
-    for (const ContactRecord& contact : result.records) {
+    for (const ContactPoint& contact : result.points) {
         of_a += contact.on == Side::a ? 1U : 0U;
     }
     std::size_t in_clusters = 0;
@@ -98,17 +98,17 @@ void check_manifold(Report& report, const PlacedPair& pair, double contact_dista
         }
         report.require(std::abs(oracle::length(cluster.normal) - 1.0) < 1e-9,
                        "a mean normal's length is ", oracle::length(cluster.normal));
-        report.require(std::any_of(result.records.begin(), result.records.end(),
-                                   [&](const ContactRecord& contact) {
-                                       return contact.point == cluster.extreme.point &&
+        report.require(std::any_of(result.points.begin(), result.points.end(),
+                                   [&](const ContactPoint& contact) {
+                                       return contact.position == cluster.extreme.position &&
                                               contact.distance == cluster.extreme.distance;
                                    }),
                        "the extreme of a stretch is none of the records");
     }
-    report.require(in_clusters >= of_a && in_clusters <= result.records.size(), in_clusters,
-                   " contacts in stretches, ", of_a, " of A, ", result.records.size(), " in all");
+    report.require(in_clusters >= of_a && in_clusters <= result.points.size(), in_clusters,
+                   " contacts in stretches, ", of_a, " of A, ", result.points.size(), " in all");
     double truth = contact_distance;
-    for (const ContactRecord& contact : result.records) {
+    for (const ContactPoint& contact : result.points) {
         truth = std::min(truth, signed_distance(contact));
     }
     report.require(max_extreme == truth, "the most extreme contact is ", truth,
@@ -123,14 +123,14 @@ void check_contacts(const PlacedPair& pair, double contact_distance, const Conta
     if (!result.status.ok()) {
         return;
     }
-    report.require(result.count == result.records.size(), "count ", result.count, ", ",
-                   result.records.size(), " records");
-    for (const ContactRecord& contact : result.records) {
+    report.require(result.count == result.points.size(), "count ", result.count, ", ",
+                   result.points.size(), " records");
+    for (const ContactPoint& contact : result.points) {
         check_record(report, pair, contact_distance, contact);
     }
     report.require(
-        std::is_sorted(result.records.begin(), result.records.end(),
-                       [](const ContactRecord& i, const ContactRecord& j) { return i.on < j.on; }),
+        std::is_sorted(result.points.begin(), result.points.end(),
+                       [](const ContactPoint& i, const ContactPoint& j) { return i.on < j.on; }),
         "contacts of B before contacts of A");
     check_complete(report, pair, contact_distance, result);
     check_manifold(report, pair, contact_distance, result);

@@ -31,7 +31,7 @@ void check_samples(Report& report, const PlacedPair& pair, IntersectionKind kind
                    const IntersectionResult& result) {
     const double most = result.error_bound + pair.rounding() + 1e-9 * pair.tolerance();
     for (const IntersectionSample& sample : result.samples) {
-        const Vector2& p = sample.point;
+        const Vector2& p = sample.position;
         const double from_a = distance_from(pair.a(), by_boundary_a(kind), p);
         const double from_b = distance_from(pair.b(), by_boundary_b(kind), p);
         report.require(from_a <= most && from_b <= most, "sample ", p.x, ", ", p.y, " is ", from_a,
@@ -57,8 +57,8 @@ void check_grid(Report& report, const PlacedPair& pair, const IntersectionResult
         bool placed = false;
         for (std::size_t i = std::get<0>(last); i < result.regions.size() && !placed; ++i) {
             const Region& region = result.regions[i];
-            const double x = (sample.point.x - region.min.x) / result.cell - 0.5;
-            const double y = (sample.point.y - region.min.y) / result.cell - 0.5;
+            const double x = (sample.position.x - region.min.x) / result.cell - 0.5;
+            const double y = (sample.position.y - region.min.y) / result.cell - 0.5;
             const long column = std::lround(x);
             const long row = std::lround(y);
             const bool on_grid =
@@ -71,7 +71,7 @@ void check_grid(Report& report, const PlacedPair& pair, const IntersectionResult
                 placed = true;
             }
         }
-        report.require(placed, "sample ", sample.point.x, ", ", sample.point.y,
+        report.require(placed, "sample ", sample.position.x, ", ", sample.position.y,
                        " is no cell's centre, or out of order");
     }
 }
@@ -110,7 +110,7 @@ void check_complete(Report& report, const PlacedPair& pair, IntersectionKind kin
     const double bound = result.error_bound + pair.rounding() + 1e-9 * pair.tolerance();
     PointIndex samples(bound);
     for (const IntersectionSample& sample : result.samples) {
-        samples.add(sample.point);
+        samples.add(sample.position);
     }
     for (const Vector2& p : points_to_find(pair, kind, bound)) {
         report.require(samples.has_near(p), "no sample within ", result.error_bound, " of ", p.x,

@@ -14,20 +14,21 @@ namespace {
 using oracle::Nearest;
 using oracle::ShapeOracle;
 
-void check_record(Report& report, const PlacedPair& pair, const PenetrationRecord& record) {
+void check_record(Report& report, const PlacedPair& pair, const PenetratingPoint& record) {
     const double d = pair.tolerance();
     const double allowed = allowed_rounding(pair);
     check_nearest(report, {pair.a(), pair.b(), d, allowed},
-                  {record.point, record.depth, record.nearest, record.feature, record.unique});
+                  {record.position, record.depth, record.nearest, record.feature, record.unique});
     const auto require_at_most = [&](double value, double most, const char* what) {
-        report.require(value <= most, "record at ", record.point.x, ", ", record.point.y, " depth ",
-                       record.depth, ": ", what, ' ', value);
+        report.require(value <= most, "record at ", record.position.x, ", ", record.position.y,
+                       " depth ", record.depth, ": ", what, ' ', value);
     };
-    require_at_most(pair.b().signed_distance(record.point), 1e-3 * d, "the point is outside B by");
+    require_at_most(pair.b().signed_distance(record.position), 1e-3 * d,
+                    "the point is outside B by");
     require_at_most(std::abs(oracle::length(record.direction) - 1.0), 1e-9,
                     "the direction's length is off by");
     const Vector2 reached =
-        oracle::plus(record.point, oracle::times(record.direction, record.depth));
+        oracle::plus(record.position, oracle::times(record.direction, record.depth));
     require_at_most(oracle::distance(reached, record.nearest), allowed,
                     "point + depth * direction misses `nearest` by");
     report.require(record.depth > 0.0, "depth ", record.depth);
@@ -52,11 +53,11 @@ void check_order(Report& report, const PlacedPair& pair, const PenetrationResult
     const double allowed = allowed_rounding(pair);
     std::size_t falls = 0;
     double place = 0.0;
-    for (const PenetrationRecord& record : result.records) {
-        double next = place_along(pair.a(), record.point, place, allowed);
+    for (const PenetratingPoint& record : result.points) {
+        double next = place_along(pair.a(), record.position, place, allowed);
         if (std::isinf(next)) {
             ++falls;
-            next = place_along(pair.a(), record.point, 0.0, allowed);
+            next = place_along(pair.a(), record.position, 0.0, allowed);
         }
         place = std::isinf(next) ? 0.0 : next;
     }
@@ -67,10 +68,10 @@ void check_order(Report& report, const PlacedPair& pair, const PenetrationResult
 void check_deepest(Report& report, const PlacedPair& pair, PenetrationPoints points,
                    const PenetrationResult& result) {
     double deepest = 0.0;
-    bool found = result.records.empty();
-    for (const PenetrationRecord& record : result.records) {
+    bool found = result.points.empty();
+    for (const PenetratingPoint& record : result.points) {
         deepest = std::max(deepest, record.depth);
-        found = found || record.point == result.deepest.point;
+        found = found || record.position == result.deepest.position;
     }
     if (result.count > 0) {
         report.require(result.deepest.depth == deepest && found, "deepest is ",
@@ -97,8 +98,8 @@ void check_boundary_complete(Report& report, const PlacedPair& pair,
     constexpr std::size_t max_samples = 4000;
     const double d = pair.tolerance();
     PointIndex records(2 * d * (1 + 1e-9));
-    for (const PenetrationRecord& record : result.records) {
-        records.add(record.point);
+    for (const PenetratingPoint& record : result.points) {
+        records.add(record.position);
     }
     for (const Vector2& p : oracle::sample_boundary(pair.a(), d / 2, max_samples)) {
         report.require(records.has_near(p) || pair.b().depth(p) <= d, "no record within 2 d of ",
@@ -111,8 +112,8 @@ void check_vertices_complete(Report& report, const PlacedPair& pair,
     const double close_call = 1e-3 * pair.tolerance() + pair.rounding();
     const double same = allowed_rounding(pair);
     PointIndex records(same);
-    for (const PenetrationRecord& record : result.records) {
-        records.add(record.point);
+    for (const PenetratingPoint& record : result.points) {
+        records.add(record.position);
     }
     PointIndex vertices(same);
     std::size_t certain = 0;
@@ -126,9 +127,9 @@ void check_vertices_complete(Report& report, const PlacedPair& pair,
         report.require(depth <= close_call || records.has_near(v), "vertex ", i, " at ", v.x, ", ",
                        v.y, " of depth ", depth, " has no record");
     }
-    for (const PenetrationRecord& record : result.records) {
-        report.require(vertices.has_near(record.point), "the record at ", record.point.x, ", ",
-                       record.point.y, " is at no vertex of A");
+    for (const PenetratingPoint& record : result.points) {
+        report.require(vertices.has_near(record.position), "the record at ", record.position.x,
+                       ", ", record.position.y, " is at no vertex of A");
     }
     report.require(result.count >= certain && result.count <= possible, result.count, " records; ",
                    certain, " to ", possible, " vertices are inside");
@@ -144,9 +145,9 @@ void check_penetration(const PlacedPair& pair, PenetrationPoints points,
     if (!result.status.ok()) {
         return;
     }
-    report.require(result.count == result.records.size(), "count ", result.count, ", ",
-                   result.records.size(), " records");
-    for (const PenetrationRecord& record : result.records) {
+    report.require(result.count == result.points.size(), "count ", result.count, ", ",
+                   result.points.size(), " records");
+    for (const PenetratingPoint& record : result.points) {
         check_record(report, pair, record);
     }
     check_order(report, pair, result);

@@ -35,7 +35,7 @@ TEST_F(ChosenTechnique, AutomaticIsTheCpuForWhatItAnswers) {
     };
     const auto expect_resident = [&](auto query) {
         expect(query, Technique::cpu);
-        query.resident = true;
+        query.on_device = true;
         expect(query, Technique::compute);
     };
     expect_resident(pair.penetration());
@@ -80,7 +80,7 @@ TEST_F(ChosenTechnique, AutomaticFieldsAreNotRefused) {
     EXPECT_EQ(run_alone(*made, field).status.code(), StatusCode::too_large);
     // The device alone has results that stay there.
     field.technique = Technique::automatic;
-    field.resident = true;
+    field.on_device = true;
     EXPECT_EQ(run_alone(*made, field).status.code(), StatusCode::too_large);
 }
 

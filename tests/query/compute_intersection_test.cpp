@@ -30,7 +30,7 @@ protected:
             EXPECT_EQ(result.technique, Technique::compute);
             EXPECT_GT(result.count, 0U);
             check_intersection(placed, kind, result);
-            query.records = false;
+            query.summary_only = true;
             const IntersectionResult counted = run_alone(context, query);
             EXPECT_EQ(counted.count, result.count);
             EXPECT_EQ(counted.box.min, result.box.min);

@@ -348,7 +348,7 @@ TEST_F(ComputeFields, MasksCountTowardsTheMemoryLimit) {
     const PlacedPair pair(
         *small, {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 2e-5});
     IntersectionQuery query = pair.intersection(IntersectionKind::volume_volume);
-    query.records = false;
+    query.summary_only = true;
     query.technique = Technique::compute;
     Batch batch;
     batch.add(query);

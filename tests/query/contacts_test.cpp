@@ -108,9 +108,9 @@ TEST_F(Contacts, ATipBetweenTwoSamplesIsFound) {
 TEST_F(Contacts, SharedEdgesTouchAtDistanceZero) {
     const ContactResult result =
         check(rectangle({-2, -1}, {0, 1}), rectangle({0, -1}, {2, 1}), 0.1, 0.05);
-    ASSERT_FALSE(result.records.empty());
-    for (const ContactRecord& contact : result.records) {
-        if (std::abs(contact.point.y) < 0.9) {
+    ASSERT_FALSE(result.points.empty());
+    for (const ContactPoint& contact : result.points) {
+        if (std::abs(contact.position.y) < 0.9) {
             EXPECT_NEAR(contact.distance, 0.0, 1e-12);
             EXPECT_FALSE(contact.inside);
             EXPECT_NEAR(contact.normal.x, -1.0, 1e-12);
@@ -130,12 +130,12 @@ TEST_F(Contacts, NormalsByTheGradientAreThoseOfTheFieldNearWalls) {
     query.normals = ContactNormals::gradient;
     const ContactResult gradient = run_alone(context(), query);
     ASSERT_TRUE(gradient.status.ok()) << gradient.status.text();
-    ASSERT_EQ(gradient.records.size(), analytic.records.size());
-    ASSERT_GT(gradient.records.size(), 50U);
-    for (std::size_t i = 0; i < gradient.records.size(); ++i) {
-        EXPECT_EQ(gradient.records[i].point, analytic.records[i].point);
-        EXPECT_EQ(gradient.records[i].distance, analytic.records[i].distance);
-        EXPECT_LT(oracle::distance(gradient.records[i].normal, analytic.records[i].normal), 1e-3);
+    ASSERT_EQ(gradient.points.size(), analytic.points.size());
+    ASSERT_GT(gradient.points.size(), 50U);
+    for (std::size_t i = 0; i < gradient.points.size(); ++i) {
+        EXPECT_EQ(gradient.points[i].position, analytic.points[i].position);
+        EXPECT_EQ(gradient.points[i].distance, analytic.points[i].distance);
+        EXPECT_LT(oracle::distance(gradient.points[i].normal, analytic.points[i].normal), 1e-3);
     }
     ASSERT_EQ(gradient.manifold.size(), analytic.manifold.size());
     EXPECT_LT(oracle::distance(gradient.manifold[0].normal, analytic.manifold[0].normal), 1e-3);
@@ -152,12 +152,12 @@ TEST_F(Contacts, NormalsByTheGradientPointOutOfRandomShapes) {
         query.normals = ContactNormals::gradient;
         const ContactResult gradient = run_alone(context(), query);
         ASSERT_TRUE(gradient.status.ok()) << gradient.status.text();
-        ASSERT_EQ(gradient.records.size(), analytic.records.size());
-        for (std::size_t i = 0; i < gradient.records.size(); ++i) {
-            const Vector2& normal = gradient.records[i].normal;
+        ASSERT_EQ(gradient.points.size(), analytic.points.size());
+        for (std::size_t i = 0; i < gradient.points.size(); ++i) {
+            const Vector2& normal = gradient.points[i].normal;
             EXPECT_NEAR(oracle::length(normal), 1.0, 1e-9);
             ++compared;
-            close += oracle::dot(normal, analytic.records[i].normal) > 0.9 ? 1U : 0U;
+            close += oracle::dot(normal, analytic.points[i].normal) > 0.9 ? 1U : 0U;
         }
     });
     // Central differences are wrong at thin features and corners.
@@ -179,9 +179,9 @@ TEST_F(Contacts, WithoutRecordsTheSummaryIsTheSame) {
         {{"A", rectangle({-1, 0.05}, {1, 2})}, {"B", rectangle({-10, -1}, {10, 0})}, {}, {}, 0.1});
     ContactQuery query = placed.contacts(0.2);
     const ContactResult with = run_alone(context(), query);
-    query.records = false;
+    query.summary_only = true;
     const ContactResult without = run_alone(context(), query);
-    EXPECT_TRUE(without.records.empty());
+    EXPECT_TRUE(without.points.empty());
     EXPECT_EQ(without.count, with.count);
     ASSERT_EQ(without.manifold.size(), with.manifold.size());
     EXPECT_EQ(without.manifold.front().first, with.manifold.front().first);

@@ -69,9 +69,9 @@ TEST_F(Curves, PenetrationOfCirclesIsWithinItsBoundOfTheAnalyticAnswer) {
             ASSERT_GT(result.count, 0U) << "seed " << seed;
             EXPECT_NEAR(result.deepest.depth, deepest(a, b), result.error_bound)
                 << "seed " << seed << ", share " << share;
-            for (const PenetrationRecord& record : result.records) {
-                EXPECT_LE(std::abs(signed_distance(a, record.point)), share * d + 1e-12);
-                EXPECT_NEAR(record.depth, -signed_distance(b, record.point), share * d + 1e-12);
+            for (const PenetratingPoint& record : result.points) {
+                EXPECT_LE(std::abs(signed_distance(a, record.position)), share * d + 1e-12);
+                EXPECT_NEAR(record.depth, -signed_distance(b, record.position), share * d + 1e-12);
             }
         }
     }
@@ -139,13 +139,13 @@ TEST_F(Curves, IntersectionsOfCirclesKeepTheirLaw) {
         const bool boundary_a = kind != IntersectionKind::volume_volume;
         const bool boundary_b = kind == IntersectionKind::boundary_boundary;
         for (const IntersectionSample& sample : result.samples) {
-            EXPECT_LE(off(signed_distance(a, sample.point), boundary_a), bound);
-            EXPECT_LE(off(signed_distance(b, sample.point), boundary_b), bound);
+            EXPECT_LE(off(signed_distance(a, sample.position), boundary_a), bound);
+            EXPECT_LE(off(signed_distance(b, sample.position), boundary_b), bound);
         }
         const auto expect_sample_near = [&](const Vector2& point) {
             EXPECT_TRUE(std::any_of(
                 result.samples.begin(), result.samples.end(),
-                [&](const auto& sample) { return distance(sample.point, point) <= bound; }))
+                [&](const auto& sample) { return distance(sample.position, point) <= bound; }))
                 << point.x << ", " << point.y;
         };
         int points = 0;

@@ -189,10 +189,10 @@ TEST_F(DeviationBounds, ContactsOfTheCirclesHaveARecordWithinTheBound) {
             // The nearest points of the circles are as near as the law promises records for.
             for (const auto& [side, x] : {std::pair(Side::a, -0.5), std::pair(Side::b, 0.0)}) {
                 bool found = false;
-                for (const ContactRecord& record : result.records) {
-                    found =
-                        found || (record.on == side &&
-                                  std::hypot(record.point.x - x, record.point.y - 0.5) <= bound);
+                for (const ContactPoint& record : result.points) {
+                    found = found ||
+                            (record.on == side &&
+                             std::hypot(record.position.x - x, record.position.y - 0.5) <= bound);
                 }
                 EXPECT_TRUE(found) << (side == Side::a ? "on A" : "on B");
             }

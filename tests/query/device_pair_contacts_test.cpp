@@ -20,7 +20,7 @@ TEST_F(DevicePairContacts, OfShapesThatAreApart) {
         add(square, {.translation = {10.0 * i, 0.0}});
         add(square, {.translation = {10.0 * i + 1.01 + 0.03 * i, 0.25}});
     }
-    Tables<ContactQuery> tables({.tolerance = 0.02, .contact_distance = 0.2, .records = false});
+    Tables<ContactQuery> tables({.tolerance = 0.02, .contact_distance = 0.2, .summary_only = true});
     compare(tables);
     EXPECT_EQ(tables.device.size(), 14U);
     EXPECT_EQ(tables.device.candidates(), 14U);
@@ -83,7 +83,7 @@ TEST_F(DevicePairContacts, OfBoundariesWithoutSamples) {
         add(circle, {.translation = {10.0 * i, 0.0}});
         add(circle, {.translation = {10.0 * i + 1.95 * std::cos(angle), 1.95 * std::sin(angle)}});
     }
-    Tables<ContactQuery> tables({.tolerance = 0.5, .contact_distance = 0.01, .records = false});
+    Tables<ContactQuery> tables({.tolerance = 0.5, .contact_distance = 0.01, .summary_only = true});
     compare(tables);
     EXPECT_EQ(tables.device.size(), 48U);
 }
@@ -96,7 +96,8 @@ TEST_F(DevicePairContacts, OfManyPoints) {
     for (int i = 0; i < 6; ++i) {
         add(square, {.translation = {0.999, -0.9 + 0.3 * i}});
     }
-    Tables<ContactQuery> tables({.tolerance = 7e-5, .contact_distance = 0.005, .records = false});
+    Tables<ContactQuery> tables(
+        {.tolerance = 7e-5, .contact_distance = 0.005, .summary_only = true});
     compare(tables);
     EXPECT_GT(tables.device.size(), 10U);
 }
@@ -118,7 +119,8 @@ TEST_F(DevicePairContacts, OfManyPointsBesideManyRings) {
     add(add_shape(dots(0.0)), {.translation = {5.0, 5.0}});
     add(add_shape(dots(0.012)), {.translation = {5.0, 5.0}});
     add(square, {.translation = {5.5, 5.5}});
-    Tables<ContactQuery> tables({.tolerance = 1.5e-4, .contact_distance = 0.002, .records = false});
+    Tables<ContactQuery> tables(
+        {.tolerance = 1.5e-4, .contact_distance = 0.002, .summary_only = true});
     compare(tables);
     EXPECT_EQ(tables.device.size(), 6U);
 }
@@ -129,7 +131,8 @@ TEST_F(DevicePairContacts, StateTheErrorsOfTheirPairs) {
     add(small, {});
     add(small, {.translation = {0.5, 0.5}});
     add(add_shape(rectangle({-1e9, -1.0}, {1e9, 1.0})), {});
-    Tables<ContactQuery> tables({.tolerance = 1e-4, .contact_distance = 1e-3, .records = false});
+    Tables<ContactQuery> tables(
+        {.tolerance = 1e-4, .contact_distance = 1e-3, .summary_only = true});
     ASSERT_TRUE(world().update(tables.device).ok());
     ASSERT_EQ(tables.device.size(), 6U);
     EXPECT_EQ(tables.device.left_to_cpu(), 4U);
@@ -160,11 +163,11 @@ TEST_F(DevicePairContacts, HaveAnalyticNormalsAlone) {
             .tolerance = 0.1, .contact_distance = 0.1, .normals = ContactNormals::gradient},
         on_device);
     EXPECT_EQ(world().update(table).code(), StatusCode::invalid_query);
-    PairTable without(ContactQuery{.tolerance = 0.1, .contact_distance = 0.1, .records = false},
+    PairTable without(ContactQuery{.tolerance = 0.1, .contact_distance = 0.1, .summary_only = true},
                       on_device);
     ASSERT_TRUE(world().update(without).ok());
     for (const auto& row : without.rows()) {
-        EXPECT_TRUE(without.records(row).empty());
+        EXPECT_TRUE(without.points(row).empty());
         EXPECT_FALSE(without.manifold(row).empty());
     }
     PairRow<ContactQuery> none;

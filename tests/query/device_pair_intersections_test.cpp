@@ -174,7 +174,7 @@ TEST_F(DevicePairIntersections, HaveNoRecords) {
     PairTable table(IntersectionTestQuery{}, on_device);
     ASSERT_TRUE(world().update(table).ok());
     ASSERT_EQ(table.size(), 1U);
-    EXPECT_TRUE(table.records(*table.row(0)).empty());
+    EXPECT_TRUE(table.points(*table.row(0)).empty());
     EXPECT_FALSE(table.row(1).has_value());
 }
 

@@ -123,8 +123,8 @@ protected:
                 all.push_back(row->distance);
             }
             if constexpr (requires { row->deepest; }) {
-                all.insert(all.end(), {row->deepest.depth, row->deepest.point.x,
-                                       row->deepest.point.y, row->deepest.nearest.x});
+                all.insert(all.end(), {row->deepest.depth, row->deepest.position.x,
+                                       row->deepest.position.y, row->deepest.nearest.x});
             }
             add_lists(table, i, all);
         }

@@ -20,7 +20,7 @@ protected:
         std::vector<PairData> pairs;
         std::vector<PairRecordData> records;
     };
-    Residents read(const ResidentPairs& resident) {
+    Residents read(const PairsOnDevice& resident) {
         Residents all;
         read(resident.pairs, resident.state, all.pairs);
         read(resident.records, resident.state, all.records);
@@ -29,10 +29,10 @@ protected:
 
 private:
     template <class Data>
-    void read(const ResidentArray& array, const ResidentState& state, std::vector<Data>& all) {
+    void read(const ArrayOnDevice& array, const OutputState& state, std::vector<Data>& all) {
         const auto header_words =
-            gpu().read(array.header.buffer, array.header.offset, sizeof(ResidentHeaderData), state);
-        ResidentHeaderData header;
+            gpu().read(array.header.buffer, array.header.offset, sizeof(HeaderData), state);
+        HeaderData header;
         std::memcpy(static_cast<void*>(&header), header_words.data(), sizeof(header));
         EXPECT_EQ(header.overflow, 0U);
         ASSERT_LE(header.count, array.capacity);
@@ -90,7 +90,7 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
         const PenetrationQuery query{.tolerance = 0.05,
                                      .points = PenetrationPoints::vertices,
                                      .records = records,
-                                     .resident = true};
+                                     .on_device = true};
         const int dispatches = dispatches_of_a_part(query);
         PairTable<PenetrationQuery> whole(query, on_device);
         PairTable<PenetrationQuery> in_parts(query, on_device);
@@ -117,7 +117,7 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 2);
     add_crowd(random, 60, 2.0);
-    const ContactQuery query{.tolerance = 0.1, .contact_distance = 0.05, .resident = true};
+    const ContactQuery query{.tolerance = 0.1, .contact_distance = 0.05, .on_device = true};
     const int dispatches = dispatches_of_a_part(query);
     PairTable<ContactQuery> whole(query, on_device);
     PairTable<ContactQuery> in_parts(query, on_device);
@@ -138,8 +138,8 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
         ASSERT_EQ(one.record_count, other.record_count);
         ASSERT_EQ(one.count_of_b, other.count_of_b);
         for (std::uint32_t k = 0; k < one.record_count; ++k) {
-            ASSERT_TRUE(are_alike(expected.records[one.first_record + k],
-                                  found.records[other.first_record + k]));
+            ASSERT_TRUE(are_alike(expected.records[one.first_point + k],
+                                  found.records[other.first_point + k]));
         }
         for (std::uint32_t k = 0; k < one.count_of_b; ++k) {
             ASSERT_TRUE(are_alike(expected.records[one.first_of_b + k],
@@ -153,7 +153,7 @@ TEST_F(DevicePairPartsForHosts, RefuseWhatTheHostCannotReach) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 3);
     add_crowd(random, 250, 2.5);
-    PairTable<PenetrationQuery> table({.tolerance = 0.02, .resident = true}, on_device);
+    PairTable<PenetrationQuery> table({.tolerance = 0.02, .on_device = true}, on_device);
     const Status status = small_world().update(table);
     EXPECT_EQ(status.code(), StatusCode::too_large) << status.text();
     EXPECT_NE(status.message().find("the pairs that stay need"), std::string::npos)

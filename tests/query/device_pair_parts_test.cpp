@@ -67,7 +67,7 @@ TEST_F(DevicePairParts, FindTheSameVertices) {
 }
 
 TEST_F(DevicePairParts, FindTheSameSummaries) {
-    expect_the_same_in_parts(PenetrationQuery{.tolerance = 0.02, .records = false}, 250, 3);
+    expect_the_same_in_parts(PenetrationQuery{.tolerance = 0.02, .summary_only = true}, 250, 3);
 }
 
 /// A pair needs both directions, which may be in different parts.
@@ -100,7 +100,7 @@ TEST_F(DevicePairParts, FindTheSameAmongAllShapes) {
     }
     add_to_both(add_shape_to_both(rectangle({-1e9, -1.0}, {1e9, 1.0})), {});
     const PenetrationQuery points{.tolerance = 0.02, .points = PenetrationPoints::vertices};
-    const ContactQuery near{.tolerance = 0.05, .contact_distance = 0.1, .records = false};
+    const ContactQuery near{.tolerance = 0.05, .contact_distance = 0.1, .summary_only = true};
     PairTable<PenetrationQuery> whole(points, on_device);
     PairTable<PenetrationQuery> in_parts(points, on_device);
     PairTable<ContactQuery> contacts(near, on_device);
@@ -120,7 +120,7 @@ TEST_F(DevicePairParts, AreDividedWhereThePairsAre) {
     add_crowd(random, 60, 40.0);
     add_crowd(random, 120, 1.0);
     add_crowd(random, 200, 40.0);
-    const PenetrationQuery query{.tolerance = 0.02, .records = false};
+    const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
     const int dispatches = dispatches_of_a_part(query);
     PairTable<PenetrationQuery> whole(query, on_device);
     PairTable<PenetrationQuery> in_parts(query, on_device);
@@ -132,7 +132,7 @@ TEST_F(DevicePairParts, AreDividedWhereThePairsAre) {
 TEST_F(DevicePairParts, FollowTheInstances) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 3);
-    const PenetrationQuery query{.tolerance = 0.02, .records = false};
+    const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
     const int dispatches = dispatches_of_a_part(query);
     PairTable<PenetrationQuery> whole(query, on_device);
     PairTable<PenetrationQuery> in_parts(query, on_device);
@@ -154,7 +154,7 @@ TEST_F(DevicePairParts, AreJoinedWherePairsAreFew) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 4);
     add_crowd(random, 250, 2.0);
-    const PenetrationQuery query{.tolerance = 0.02, .records = false};
+    const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
     const int dispatches = dispatches_of_a_part(query);
     PairTable<PenetrationQuery> whole(query, on_device);
     PairTable<PenetrationQuery> in_parts(query, on_device);
@@ -212,7 +212,7 @@ TEST_F(DevicePairParts, KeepToTheLimitOfMemory) {
     ASSERT_NO_FATAL_FAILURE(make_small(1U << 27U, settings));
     Random random(seed + 6);
     add_crowd(random, 250, 2.0);
-    const PenetrationQuery query{.tolerance = 0.02, .records = false};
+    const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
     const int dispatches = dispatches_of_a_part(query);
     PairTable<PenetrationQuery> whole(query, on_device);
     PairTable<PenetrationQuery> in_parts(query, on_device);

@@ -69,7 +69,7 @@ protected:
         }
         if constexpr (requires { row.deepest; }) {
             EXPECT_NEAR(row.deepest.depth, truth.deepest.depth, query.tolerance / 1000.0);
-            EXPECT_EQ(row.deepest.point, truth.deepest.point);
+            EXPECT_EQ(row.deepest.position, truth.deepest.position);
         }
         if constexpr (requires { row.distance; }) {
             EXPECT_EQ(row.distance, truth.distance);

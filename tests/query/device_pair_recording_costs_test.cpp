@@ -100,7 +100,7 @@ protected:
 };
 
 TEST_F(DevicePairRecordingCosts, AreNoAllocationNoObjectNoWaitAndNoSubmission) {
-    const ContactQuery query{.tolerance = 0.05, .contact_distance = 0.05, .resident = true};
+    const ContactQuery query{.tolerance = 0.05, .contact_distance = 0.05, .on_device = true};
     PairTable table(query, on_device);
     expect_nothing_made(
         table, [&](const Recording& recording) { return world_->record(table, recording); });

@@ -82,7 +82,7 @@ protected:
 /// There is room for some thousand pairs and points at first.
 TEST_F(DevicePairRecordingErrors, SayThatThereWasNoRoomAndMakeIt) {
     crowd(120);
-    const PenetrationQuery query{.tolerance = 0.05, .resident = true};
+    const PenetrationQuery query{.tolerance = 0.05, .on_device = true};
     PairTable reference(query, on_device);
     ASSERT_TRUE(own_world_->update(reference).ok());
     for (const bool is_collected : {true, false}) {
@@ -112,7 +112,7 @@ TEST_F(DevicePairRecordingErrors, SayThatThereWasNoRoomAndMakeIt) {
         EXPECT_EQ(table.size(), 120U * 119U);
         ASSERT_EQ(table.size(), reference.size());
         for (std::uint32_t i = 0; i < table.size(); i += 100) {
-            EXPECT_EQ(table.row(i)->deepest.point, reference.row(i)->deepest.point);
+            EXPECT_EQ(table.row(i)->deepest.position, reference.row(i)->deepest.position);
         }
         EXPECT_TRUE(own_world_->update(table).ok());
         EXPECT_EQ(table.size(), 120U * 119U);
@@ -318,7 +318,7 @@ TEST_F(DevicePairRecordingErrors, TellWhatIsStillAboutTheWorld) {
 }
 
 TEST_F(DevicePairRecordingErrors, OfWorldsWithoutPairsAreNone) {
-    PairTable table(PenetrationQuery{.tolerance = 0.1, .resident = true}, on_device);
+    PairTable table(PenetrationQuery{.tolerance = 0.1, .on_device = true}, on_device);
     for (std::uint64_t frame = 0; frame < 2; ++frame) {
         const Status status = run(table, frame);
         EXPECT_TRUE(status.ok()) << status.text();

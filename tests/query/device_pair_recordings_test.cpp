@@ -54,9 +54,9 @@ protected:
         return numbers;
     }
 
-    static constexpr VkDeviceSize header_bytes = sizeof(ResidentHeaderData);
+    static constexpr VkDeviceSize header_bytes = sizeof(HeaderData);
     /// Records a copy of what stays on the device.
-    void copy_residents(VkCommandBuffer commands, const ResidentPairs& pairs, VkBuffer target) {
+    void copy_residents(VkCommandBuffer commands, const PairsOnDevice& pairs, VkBuffer target) {
         const auto barrier = [&](VkPipelineStageFlags from, VkPipelineStageFlags to,
                                  VkAccessFlags written, VkAccessFlags seen) {
             VkMemoryBarrier memory{};
@@ -72,23 +72,23 @@ protected:
             gpu().vkCmdCopyBuffer(commands, from, target, 1, &region);
             offset += bytes;
         };
-        for (const ResidentArray& array : {pairs.pairs, pairs.records}) {
+        for (const ArrayOnDevice& array : {pairs.pairs, pairs.records}) {
             copy(array.header.buffer, array.header.offset, header_bytes);
             copy(array.buffer, 0, array.size);
         }
         barrier(VK_PIPELINE_STAGE_TRANSFER_BIT, pairs.state.stages | VK_PIPELINE_STAGE_HOST_BIT,
                 VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_HOST_READ_BIT);
     }
-    [[nodiscard]] HostGpu::Buffer make_copy(const ResidentPairs& pairs) {
+    [[nodiscard]] HostGpu::Buffer make_copy(const PairsOnDevice& pairs) {
         return gpu().make_buffer(2 * header_bytes + pairs.pairs.size + pairs.records.size);
     }
     /// Headers, and as many pairs and records as they say.
     static std::vector<std::uint32_t> words_of(const HostGpu::Buffer& copy,
-                                               const ResidentPairs& pairs) {
+                                               const PairsOnDevice& pairs) {
         std::vector<std::uint32_t> words;
         const std::byte* data = copy.data;
         const auto add = [&](std::size_t element, VkDeviceSize bytes) {
-            ResidentHeaderData header;
+            HeaderData header;
             std::memcpy(&header, data, header_bytes);
             EXPECT_EQ(header.overflow, 0U);
             const std::size_t first = words.size();
@@ -101,7 +101,7 @@ protected:
         add(sizeof(PairRecordData), pairs.records.size);
         return words;
     }
-    std::vector<std::uint32_t> read_residents(const ResidentPairs& pairs) {
+    std::vector<std::uint32_t> read_residents(const PairsOnDevice& pairs) {
         const HostGpu::Buffer copy = make_copy(pairs);
         gpu().submit(
             [&](VkCommandBuffer commands) { copy_residents(commands, pairs, copy.buffer); });
@@ -173,7 +173,7 @@ protected:
             world().record(table, {.commands = search, .frame = frame}, at_poses(buffer.poses()));
         ASSERT_TRUE(status.ok()) << status.text();
         kept.end(search);
-        const ResidentPairs pairs = *table.resident();
+        const PairsOnDevice pairs = *table.resident();
         std::vector<VkCommandBuffer> commands;
         std::vector<HostGpu::Buffer> copies;
         for (const std::vector<HostPose>& each : poses) {
@@ -247,10 +247,10 @@ protected:
 TEST_F(DevicePairRecordings, LeaveThePairsOfThePosesThatAreThen) {
     Random random(seed);
     add_some(random, 2);
-    leave_residents(PenetrationQuery{.tolerance = 0.03, .records = false, .resident = true});
+    leave_residents(PenetrationQuery{.tolerance = 0.03, .summary_only = true, .on_device = true});
     remove(std::exchange(added_, {}));
     add_some(random, 2);
-    leave_residents(ContactQuery{.tolerance = 0.03, .contact_distance = 0.05, .resident = true});
+    leave_residents(ContactQuery{.tolerance = 0.03, .contact_distance = 0.05, .on_device = true});
 }
 
 TEST_F(DevicePairRecordings, AreCollectedAsOftenAsTheyAreExecuted) {
@@ -270,7 +270,7 @@ TEST_F(DevicePairRecordings, MayFollowThemselvesInOneCommandBuffer) {
     add_some(random, 2);
     const std::vector<std::vector<HostPose>> poses{any_poses(random), any_poses(random)};
     PoseBuffer buffer = make_buffer();
-    const ContactQuery query{.tolerance = 0.03, .contact_distance = 0.05, .resident = true};
+    const ContactQuery query{.tolerance = 0.03, .contact_distance = 0.05, .on_device = true};
     PairTable reference(query, on_device);
     std::vector<double> expected;
     update_with_each(reference, buffer, poses, [&] { expected = numbers_of(reference); });

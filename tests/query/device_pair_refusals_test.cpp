@@ -79,9 +79,9 @@ TEST_F(DevicePairRefusals, OfQueriesThatAreNotForTheDeviceToCompute) {
         expect_refused(context(), IntersectionTestQuery{.technique = technique},
                        StatusCode::invalid_query);
     }
-    const ResidentBufferTarget target;
+    const BufferTarget target;
     expect_refused(context(),
-                   PenetrationQuery{.tolerance = 0.1, .resident = true, .target = &target},
+                   PenetrationQuery{.tolerance = 0.1, .on_device = true, .target = &target},
                    StatusCode::invalid_query);
     expect_refused(context(), PenetrationQuery{.tolerance = -1.0}, StatusCode::invalid_query);
     expect_refused(context(), ContactQuery{.tolerance = 0.1}, StatusCode::invalid_query);

@@ -19,15 +19,15 @@ constexpr std::uint64_t seed = 28000;
 class DevicePairResidents : public DevicePairsOfHostTest {
 protected:
     struct Read {
-        ResidentHeaderData pair_header;
-        ResidentHeaderData record_header;
+        HeaderData pair_header;
+        HeaderData record_header;
         std::vector<PairData> pairs;
         std::vector<PairRecordData> records;
     };
 
     template <class Data>
     std::vector<Data> read(VkBuffer buffer, VkDeviceSize offset, std::size_t count,
-                           const ResidentState& state) {
+                           const OutputState& state) {
         std::vector<Data> data(count);
         if (count > 0) {
             const auto words = gpu().read(buffer, offset, count * sizeof(Data), state);
@@ -35,10 +35,9 @@ protected:
         }
         return data;
     }
-    Read read(const ResidentPairs& pairs) {
-        const auto header_of = [&](const ResidentArray& array) {
-            return read<ResidentHeaderData>(array.header.buffer, array.header.offset, 1,
-                                            pairs.state)[0];
+    Read read(const PairsOnDevice& pairs) {
+        const auto header_of = [&](const ArrayOnDevice& array) {
+            return read<HeaderData>(array.header.buffer, array.header.offset, 1, pairs.state)[0];
         };
         Read all;
         all.pair_header = header_of(pairs.pairs);
@@ -47,7 +46,7 @@ protected:
         EXPECT_LE(all.record_header.count, pairs.records.capacity);
         EXPECT_EQ(pairs.pairs.size, pairs.pairs.capacity * sizeof(PairData));
         EXPECT_EQ(pairs.records.size, pairs.records.capacity * sizeof(PairRecordData));
-        for (const ResidentHeaderData& header : {all.pair_header, all.record_header}) {
+        for (const HeaderData& header : {all.pair_header, all.record_header}) {
             EXPECT_EQ(header.points.vertexCount, header.count);
             EXPECT_EQ(header.points.instanceCount, 1U);
             EXPECT_EQ(header.quads.vertexCount, 6U);
@@ -63,7 +62,7 @@ protected:
         return all;
     }
 
-    /// ResidentPairs states it: most shapes have a radius of about 1, one of 9, and are within 8 of
+    /// PairsOnDevice states it: most shapes have a radius of about 1, one of 9, and are within 8 of
     /// the origin; for one that is farther away it allows more.
     static constexpr double near = 40.0 * 0x1p-17;
 
@@ -84,7 +83,7 @@ protected:
     void expect_equal(const PairRecordData& found, const Vector2& nearest, const Vector2& direction,
                       double distance, bool unique, const Vector2& origin) {
         EXPECT_NEAR(static_cast<double>(found.distance), distance, near);
-        if (unique && (found.feature & resident_feature::unique) != 0) {
+        if (unique && (found.feature & feature_bits::unique) != 0) {
             // As far apart as two points of one edge can be that are as near.
             const double apart = 4.0 * std::sqrt(near * (distance + near));
             EXPECT_NEAR(origin.x + static_cast<double>(found.nearest[0]), nearest.x, apart);
@@ -92,13 +91,13 @@ protected:
         }
         const auto x = static_cast<double>(found.normal[0]);
         const auto y = static_cast<double>(found.normal[1]);
-        if ((found.flags & resident_pair_flags::touching) != 0) {
+        if ((found.flags & pair_flags::touching) != 0) {
             EXPECT_EQ(x * x + y * y, 0.0);
             EXPECT_LE(distance, 2.0 * near);
             return;
         }
         EXPECT_NEAR(std::hypot(x, y), 1.0, 1e-6);
-        const bool is_decided = (found.flags & resident_pair_flags::undecided) == 0;
+        const bool is_decided = (found.flags & pair_flags::undecided) == 0;
         if (unique && is_decided && distance > 100.0 * near) {
             EXPECT_NEAR(x, direction.x, 0.2);
             EXPECT_NEAR(y, direction.y, 0.2);
@@ -112,7 +111,7 @@ protected:
         ASSERT_TRUE(world().submit(table).ok());
         const Status status = table.collect();
         ASSERT_TRUE(status.ok()) << status.text();
-        const Expected<ResidentPairs> pairs = table.resident();
+        const Expected<PairsOnDevice> pairs = table.resident();
         ASSERT_TRUE(pairs.has_value()) << pairs.error().text();
         const Read all = read(*pairs);
         EXPECT_EQ(all.pair_header.overflow + all.record_header.overflow, 0U);
@@ -120,7 +119,7 @@ protected:
         std::uint32_t undecided = 0;
         for (const PairData& pair : all.pairs) {
             EXPECT_TRUE(by_pair.emplace(std::pair(pair.a, pair.b), &pair).second);
-            undecided += (pair.flags & resident_pair_flags::undecided) != 0 ? 1 : 0;
+            undecided += (pair.flags & pair_flags::undecided) != 0 ? 1 : 0;
         }
         EXPECT_EQ(undecided, table.left_to_cpu());
         std::uint32_t rows = 0;
@@ -129,7 +128,7 @@ protected:
             ASSERT_TRUE(row.has_value());
             const auto found = by_pair.find({row->a.index, row->b.index});
             ASSERT_NE(found, by_pair.end());
-            if ((found->second->flags & resident_pair_flags::undecided) == 0) {
+            if ((found->second->flags & pair_flags::undecided) == 0) {
                 ++rows;
                 ASSERT_NO_FATAL_FAILURE(
                     compare_row(table, i, *row, *found->second, all, pairs->origin));
@@ -143,12 +142,12 @@ protected:
     void compare_row(PairTable<Query>& table, std::uint32_t i, const PairRow<Query>& row,
                      const PairData& pair, const Read& all, const Vector2& origin) {
         SCOPED_TRACE("row " + std::to_string(i));
-        ASSERT_LE(pair.first_record + pair.record_count, all.records.size());
+        ASSERT_LE(pair.first_point + pair.record_count, all.records.size());
         ASSERT_LE(pair.first_of_b + pair.count_of_b, all.records.size());
-        if ((pair.flags & resident_pair_flags::uncertain) == 0) {
+        if ((pair.flags & pair_flags::uncertain) == 0) {
             EXPECT_EQ(pair.count, row.count);
         }
-        if ((pair.flags & resident_pair_flags::intersects) != 0) {
+        if ((pair.flags & pair_flags::intersects) != 0) {
             EXPECT_TRUE(row.intersects);
         }
         for (const auto& one : records_of(table, i)) {
@@ -158,7 +157,7 @@ protected:
             }
             const PairRecordData* const found =
                 is_of_b ? find(all, pair.first_of_b, pair.count_of_b, origin, one.point)
-                        : find(all, pair.first_record, pair.record_count, origin, one.point);
+                        : find(all, pair.first_point, pair.record_count, origin, one.point);
             ASSERT_NE(found, nullptr) << one.point.x << " " << one.point.y;
             if constexpr (std::is_same_v<Query, PenetrationQuery>) {
                 expect_equal(*found, one.nearest, one.direction, one.depth, one.unique, origin);
@@ -174,9 +173,9 @@ protected:
             ASSERT_LT(pair.deepest, all.records.size());
             EXPECT_NEAR(static_cast<double>(pair.depth), row.deepest.depth, near);
             EXPECT_NEAR(all.records[pair.deepest].distance, pair.depth, 1e-4F);
-            EXPECT_NE(all.records[pair.deepest].feature & resident_feature::inside, 0U);
+            EXPECT_NE(all.records[pair.deepest].feature & feature_bits::inside, 0U);
         } else {
-            EXPECT_EQ(pair.deepest, no_record);
+            EXPECT_EQ(pair.deepest, no_point);
         }
     }
 
@@ -192,7 +191,7 @@ TEST_F(DevicePairResidents, ArePenetrationsAsTheDeviceFindsThem) {
             PairTable table(PenetrationQuery{.tolerance = 0.02,
                                              .points = points,
                                              .technique = Technique::compute,
-                                             .resident = true},
+                                             .on_device = true},
                             on_device);
             run_history(random, {4, 40, 5.0}, [&] { compare(table); });
         }
@@ -204,8 +203,9 @@ TEST_F(DevicePairResidents, ArePenetrationsAsTheDeviceFindsThem) {
 
 TEST_F(DevicePairResidents, AreContactsAsTheDeviceFindsThem) {
     for_each_case(seed, 3, [&](Random& random) {
-        PairTable table(ContactQuery{.tolerance = 0.02, .contact_distance = 0.05, .resident = true},
-                        on_device);
+        PairTable table(
+            ContactQuery{.tolerance = 0.02, .contact_distance = 0.05, .on_device = true},
+            on_device);
         run_history(random, {4, 30, 5.0}, [&] { compare(table); });
     });
     EXPECT_GT(rows_, 200U);
@@ -218,7 +218,7 @@ TEST_F(DevicePairResidents, SayThatTheyAreNotAllThere) {
     for (int i = 0; i < 120; ++i) {
         add(square, {.translation = {0.01 * i, 0.005 * i}, .angle = 0.1 * i});
     }
-    PairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true}, on_device);
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .on_device = true}, on_device);
     ASSERT_TRUE(world().submit(table).ok());
     const Read before = read(*table.resident());
     EXPECT_EQ(before.pair_header.overflow, 1U);
@@ -247,7 +247,7 @@ TEST_F(DevicePairResidents, AreRelativeToTheOriginOfTheHost) {
     poses.buffer = buffer.buffer;
     poses.size = sizeof(places);
     poses.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    PairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true}, on_device);
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .on_device = true}, on_device);
     for (const Vector2& origin : {Vector2{}, Vector2{1000.0, -5.0}, Vector2{7.0, 7.0}}) {
         poses.origin = origin;
         ASSERT_TRUE(world().update(table, at_poses(poses)).ok());
@@ -267,7 +267,7 @@ TEST_F(DevicePairResidents, OfATableThatStartsAnewHaveAnotherRevision) {
     for (int i = 0; i < 2; ++i) {
         ASSERT_TRUE(other->add({.shape = square, .pose = {{0.3 * i, 0.0}, 0.0}}).has_value());
     }
-    PairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true}, on_device);
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .on_device = true}, on_device);
     std::set<std::uint64_t> revisions;
     for (int i = 0; i < 3; ++i) {
         for (World* const each : {&world(), &*other}) {
@@ -279,7 +279,7 @@ TEST_F(DevicePairResidents, OfATableThatStartsAnewHaveAnotherRevision) {
 
 TEST_F(DevicePairResidents, OfNothingHaveACountOfZero) {
     const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
-    PairTable table(PenetrationQuery{.tolerance = 0.05, .resident = true}, on_device);
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .on_device = true}, on_device);
     EXPECT_EQ(table.resident().error().code(), StatusCode::not_ready);
     add(square, {});
     ASSERT_TRUE(world().update(table).ok());

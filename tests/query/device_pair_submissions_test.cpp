@@ -30,7 +30,7 @@ protected:
     /// All that a table says.
     struct Rows {
         std::vector<PairRow<PenetrationQuery>> rows;
-        std::vector<std::vector<PenetrationRecord>> records;
+        std::vector<std::vector<PenetratingPoint>> records;
         std::uint32_t candidates = 0;
         std::uint32_t left_to_cpu = 0;
     };

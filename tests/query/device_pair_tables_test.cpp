@@ -264,7 +264,7 @@ TYPED_TEST(DevicePairTables, AreTheSameInEachRun) {
             ASSERT_EQ(records.size(), again.size());
             for (std::size_t k = 0; k < records.size(); ++k) {
                 if constexpr (requires { records[k].nearest; }) {
-                    EXPECT_EQ(records[k].point, again[k].point);
+                    EXPECT_EQ(records[k].position, again[k].point);
                     EXPECT_EQ(records[k].nearest, again[k].nearest);
                 }
             }

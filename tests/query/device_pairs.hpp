@@ -36,7 +36,7 @@ inline std::vector<Rings> some_shapes(Random& random) {
 // A row, a record and a cluster of the device are those of the CPU, as the answers of two
 // techniques are.
 
-inline void expect_equal(const PenetrationRecord& found, const PenetrationRecord& truth,
+inline void expect_equal(const PenetratingPoint& found, const PenetratingPoint& truth,
                          double tolerance) {
     EXPECT_NEAR(found.depth, truth.depth, tolerance / 1000.0);
     EXPECT_EQ(found.point, truth.point);
@@ -45,7 +45,7 @@ inline void expect_equal(const PenetrationRecord& found, const PenetrationRecord
         EXPECT_NEAR(found.nearest.y, truth.nearest.y, 0.1 * tolerance + 0.1 * truth.depth);
     }
 }
-inline void expect_equal(const ContactRecord& found, const ContactRecord& truth, double tolerance) {
+inline void expect_equal(const ContactPoint& found, const ContactPoint& truth, double tolerance) {
     EXPECT_NEAR(found.distance, truth.distance, tolerance / 1000.0);
     EXPECT_EQ(found.point, truth.point);
     EXPECT_EQ(found.on, truth.on);

@@ -26,7 +26,7 @@ TEST_F(DevicePairs, OfManyInstancesOfAllSizes) {
         add(shapes[static_cast<std::size_t>(i % 4)], any_pose(random, 10.0));
     }
     Tables<PenetrationQuery> tables(
-        {.tolerance = 1e-4, .points = PenetrationPoints::vertices, .records = false});
+        {.tolerance = 1e-4, .points = PenetrationPoints::vertices, .summary_only = true});
     compare(tables);
     EXPECT_GT(tables.device.size(), 700U);
 }
@@ -42,7 +42,7 @@ TEST_F(DevicePairs, AreFewWhereverTheInstancesGo) {
     }
     add(square, {.translation = {1e12, 0.0}});
     Tables<PenetrationQuery> tables(
-        {.tolerance = 0.01, .points = PenetrationPoints::vertices, .records = false});
+        {.tolerance = 0.01, .points = PenetrationPoints::vertices, .summary_only = true});
     compare(tables);
     const std::uint32_t few = tables.device.candidates();
     EXPECT_LT(few, 150U);
@@ -95,7 +95,8 @@ TEST_F(DevicePairs, OfMoreSamplesThanTheDeviceCounts) {
     add(add_shape(rectangle({0.0, 0.0}, {1.0, 1.0})), {});
     add(add_shape(scaled_and_moved(regular(16), 40.0, {0.56, 0.0})), {});
     const double cell = 1.0 / (4294967296.0 + 7.5);
-    Tables<PenetrationQuery> tables({.tolerance = cell / std::numbers::sqrt2, .records = false});
+    Tables<PenetrationQuery> tables(
+        {.tolerance = cell / std::numbers::sqrt2, .summary_only = true});
     EXPECT_EQ(world().update(tables.device).code(), StatusCode::too_large);
     EXPECT_EQ(tables.device.size(), 0U);
     EXPECT_EQ(world().update(tables.cpu).code(), StatusCode::too_large);
@@ -120,7 +121,7 @@ TEST_F(DevicePairs, StateTheErrorsOfPairsWithManySamples) {
     const ShapeHandle land = add_shape(rectangle({-1e9, -1e9}, {1e9, 1e9}));
     add(land, {});
     add(land, {.translation = {1e8, 0.0}, .angle = 1.0});
-    Tables<PenetrationQuery> tables({.tolerance = 3e-4, .records = false});
+    Tables<PenetrationQuery> tables({.tolerance = 3e-4, .summary_only = true});
     compare(tables);
     EXPECT_GT(tables.device.left_to_cpu(), 0U);
 }

@@ -27,10 +27,10 @@ TEST_F(EngineGlue, AnswersEveryFrame) {
     const ShapeHandle b = *proximity.context().add_shape(rings_b);
     std::vector<ContactQuery> asked;
     std::vector<QueryHandle<ContactQuery>> handles;
-    ResidentRecords last;
+    PointsOnDevice last;
     for (std::uint64_t frame = 0; frame < 8; ++frame) {
         ContactQuery query{a, {b, {{0.05 * static_cast<double>(frame), 0.1}, 0.3}}, 0.04, 0.05};
-        query.resident = true;
+        query.on_device = true;
         asked.push_back(query);
         Batch batch;
         handles.push_back(batch.add(query));
@@ -47,8 +47,8 @@ TEST_F(EngineGlue, AnswersEveryFrame) {
             alone.technique = Technique::compute;
             const ContactResult expected = run_alone(context(), alone);
             const ContactResult& found = proximity.results()[handles[former]];
-            ASSERT_GT(found.records.size(), 10U);
-            EXPECT_EQ(found.records.size(), expected.records.size());
+            ASSERT_GT(found.points.size(), 10U);
+            EXPECT_EQ(found.points.size(), expected.points.size());
             EXPECT_TRUE(context().remove_shape(alone.a.shape).ok());
             EXPECT_TRUE(context().remove_shape(alone.b.shape).ok());
         }

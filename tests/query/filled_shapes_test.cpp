@@ -176,29 +176,30 @@ TEST_F(FilledShapes, PointsAreAsDeepAsInTheRegion) {
             const double bound = technique == Technique::cpu ? 0.0 : pair.tolerance / 1000.0;
             const PenetrationResult found =
                 ask(PenetrationQuery{pair.triangle, pair.filled, pair.tolerance}, technique);
-            for (const PenetrationRecord& record : found.records) {
-                ASSERT_TRUE(pair.has(record.point, -record.depth, bound))
-                    << record.point.x << ", " << record.point.y << ": " << record.depth
-                    << " instead of " << -pair.region->signed_distance(record.point);
+            for (const PenetratingPoint& record : found.points) {
+                ASSERT_TRUE(pair.has(record.position, -record.depth, bound))
+                    << record.position.x << ", " << record.position.y << ": " << record.depth
+                    << " instead of " << -pair.region->signed_distance(record.position);
             }
-            records += found.records.size();
+            records += found.points.size();
             // No point of an edge inside the region is a point of its boundary.
             const PenetrationResult own =
                 ask(PenetrationQuery{pair.filled, pair.triangle, pair.tolerance}, technique);
-            for (const PenetrationRecord& record : own.records) {
-                ASSERT_TRUE(pair.has_on_boundary(record.point));
+            for (const PenetratingPoint& record : own.points) {
+                ASSERT_TRUE(pair.has_on_boundary(record.position));
             }
             const ContactResult contacts =
                 ask(ContactQuery{pair.triangle, pair.filled, pair.tolerance, pair.size / 20.0},
                     technique);
-            for (const ContactRecord& contact : contacts.records) {
+            for (const ContactPoint& contact : contacts.points) {
                 const bool of_a = contact.on == Side::a;
-                ASSERT_TRUE(pair.has_on_boundary(of_a ? contact.nearest : contact.point));
+                ASSERT_TRUE(pair.has_on_boundary(of_a ? contact.nearest : contact.position));
                 if (of_a) {
-                    ASSERT_TRUE(pair.has(contact.point, contact.distance, bound) ||
-                                pair.has(contact.point, -contact.distance, bound))
-                        << contact.point.x << ", " << contact.point.y << ": " << contact.distance
-                        << " instead of " << pair.region->signed_distance(contact.point);
+                    ASSERT_TRUE(pair.has(contact.position, contact.distance, bound) ||
+                                pair.has(contact.position, -contact.distance, bound))
+                        << contact.position.x << ", " << contact.position.y << ": "
+                        << contact.distance << " instead of "
+                        << pair.region->signed_distance(contact.position);
                 }
             }
         }

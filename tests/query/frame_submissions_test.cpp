@@ -60,7 +60,7 @@ TEST_F(Frames, KeepImagesThatOthersOutgrow) {
     for (std::size_t i = 0; i < batches.size(); ++i) {
         IntersectionQuery query{{a_, {}}, {b_, {}}, tolerances[i]};
         query.technique = Technique::raster;
-        query.records = false;
+        query.summary_only = true;
         batches[i].add(query);
     }
     std::vector<Ticket> tickets;
@@ -156,7 +156,7 @@ TEST_F(Frames, OfTenThousandPairsTakeOneSubmission) {
         query.b = {shapes[static_cast<std::size_t>(random.whole(0, 29))],
                    {{place.x + random.between(0.9, 1.7), place.y}, 0.02 * i}};
         query.tolerance = d;
-        query.records = false;
+        query.summary_only = true;
         query.technique = Technique::raster;
         batch.add(query);
         query.technique = Technique::cpu;

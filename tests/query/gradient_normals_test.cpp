@@ -35,20 +35,20 @@ TEST_F(GradientNormals, OnAPlateThinnerThanACellVanishAndAreOneOfSeveral) {
                                 technique);
         const ContactResult analytic = ask(placed, 0.1, ContactNormals::analytic);
         const ContactResult gradient = ask(placed, 0.1, ContactNormals::gradient);
-        ASSERT_EQ(gradient.records.size(), analytic.records.size());
+        ASSERT_EQ(gradient.points.size(), analytic.points.size());
         std::size_t on_b = 0;
-        for (std::size_t i = 0; i < gradient.records.size(); ++i) {
-            const ContactRecord& record = gradient.records[i];
-            EXPECT_EQ(record.point, analytic.records[i].point);
-            if (record.on == Side::b && std::abs(record.point.x) < 0.9) {
+        for (std::size_t i = 0; i < gradient.points.size(); ++i) {
+            const ContactPoint& record = gradient.points[i];
+            EXPECT_EQ(record.position, analytic.points[i].position);
+            if (record.on == Side::b && std::abs(record.position.x) < 0.9) {
                 ++on_b;
-                EXPECT_TRUE(analytic.records[i].unique) << record.point.x;
-                EXPECT_FALSE(record.unique) << record.point.x;
-                EXPECT_EQ(record.normal, analytic.records[i].normal);
-            } else if (record.on == Side::a && record.point.y < 0.06 &&
-                       std::abs(record.point.x) < 0.9) {
+                EXPECT_TRUE(analytic.points[i].unique) << record.position.x;
+                EXPECT_FALSE(record.unique) << record.position.x;
+                EXPECT_EQ(record.normal, analytic.points[i].normal);
+            } else if (record.on == Side::a && record.position.y < 0.06 &&
+                       std::abs(record.position.x) < 0.9) {
                 // A third of a cell off, the gradient is short and says where to.
-                EXPECT_TRUE(record.unique) << record.point.x;
+                EXPECT_TRUE(record.unique) << record.position.x;
                 EXPECT_GT(record.normal.y, 0.99);
             }
         }
@@ -76,12 +76,12 @@ TEST_F(GradientNormals, NearARoundShapeAreRadial) {
                 technique);
             const ContactResult result = ask(placed, 0.05, ContactNormals::gradient);
             std::size_t compared = 0;
-            for (const ContactRecord& record : result.records) {
-                const double from_centre = oracle::length(record.point);
-                const Vector2 radial = oracle::times(record.point, 1.0 / from_centre);
+            for (const ContactPoint& record : result.points) {
+                const double from_centre = oracle::length(record.position);
+                const Vector2 radial = oracle::times(record.position, 1.0 / from_centre);
                 EXPECT_GT(oracle::dot(record.normal, radial), std::cos(turned))
-                    << record.point.x << ", " << record.point.y << ": normal " << record.normal.x
-                    << ", " << record.normal.y;
+                    << record.position.x << ", " << record.position.y << ": normal "
+                    << record.normal.x << ", " << record.normal.y;
                 EXPECT_TRUE(record.unique || from_centre < 0.9);
                 ++compared;
             }

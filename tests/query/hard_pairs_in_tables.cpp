@@ -89,9 +89,9 @@ private:
             static_cast<typename Result::Values&>(result) = *row;
             result.intersects = row->intersects;
             result.error_bound = row->error_bound;
-            if constexpr (requires { result.records; }) {
-                const auto records = table.records(*row);
-                result.records.assign(records.begin(), records.end());
+            if constexpr (requires { result.points; }) {
+                const auto records = table.points(*row);
+                result.points.assign(records.begin(), records.end());
             }
             if constexpr (requires { result.manifold; }) {
                 const auto manifold = table.manifold(*row);
@@ -124,7 +124,7 @@ void compare(Rows<Query>& rows, Rows<Query>& summaries, std::size_t i, const Agr
         const auto found = rows.found_result(a);
         const auto summary = summaries.found_result(a);
         const auto expected = rows.expected_result(a);
-        EXPECT_EQ(found.count, found.records.size());
+        EXPECT_EQ(found.count, found.points.size());
         EXPECT_EQ(found.count, expected.count) << "row of instance " << a;
         EXPECT_EQ(found.count, summary.count) << "without records";
         EXPECT_EQ(rows.found(a).has_value(), summaries.found(a).has_value());
@@ -136,7 +136,7 @@ void compare(Rows<Query>& rows, Rows<Query>& summaries, std::size_t i, const Agr
 
 /// The device chooses the deepest point of a row in single precision, as the nearest features.
 void take_deepest_of_records(PenetrationResult& result) {
-    for (const PenetrationRecord& record : result.records) {
+    for (const PenetratingPoint& record : result.points) {
         if (record.depth > result.deepest.depth) {
             EXPECT_NEAR(record.depth, result.deepest.depth, result.tolerance / 1000.0);
             result.deepest = record;
@@ -148,7 +148,7 @@ void check_penetrations(WorldOfPairs& world, const HardPairs& asked, Penetration
     PenetrationQuery query{.tolerance = asked.tolerance, .points = points};
     const AnyQuery any = query;
     Rows<PenetrationQuery> rows(world, query);
-    query.records = false;
+    query.summary_only = true;
     Rows<PenetrationQuery> summaries(world, query);
     asked.for_each([&](std::size_t i, const PlacedPair& pair) {
         PenetrationResult result = rows.found_result(2 * i);
@@ -174,7 +174,7 @@ void check_all_contacts(WorldOfPairs& world, const HardPairs& asked) {
     ContactQuery query{.tolerance = asked.tolerance, .contact_distance = asked.contact_distance};
     const AnyQuery any = query;
     Rows<ContactQuery> rows(world, query);
-    query.records = false;
+    query.summary_only = true;
     Rows<ContactQuery> summaries(world, query);
     asked.for_each([&](std::size_t i, const PlacedPair& pair) {
         check_contacts(pair, asked.contact_distance, rows.found_result(2 * i));

@@ -79,11 +79,11 @@ private:
             for (const bool records : {true, false}) {
                 for (const PenetrationPoints points : both_ways) {
                     PenetrationQuery query = pair.penetration(points);
-                    query.records = records;
+                    query.summary_only = !records;
                     add(query);
                 }
                 ContactQuery query = pair.contacts(asked.contact_distance);
-                query.records = records;
+                query.summary_only = !records;
                 add(query);
             }
             add(pair.separation());

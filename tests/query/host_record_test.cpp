@@ -184,14 +184,14 @@ TEST_F(Recorded, QueriesThatTakeASecondSubmissionAreRefusedAlone) {
         EXPECT_EQ(refused.status.code(), StatusCode::not_recordable);
         EXPECT_NE(refused.status.message().find(to_string(refused.technique)), std::string::npos)
             << refused.status.message();
-        EXPECT_TRUE(refused.records.empty());
+        EXPECT_TRUE(refused.points.empty());
     }
     const auto& by_cpu = std::get<ContactResult>(results.results[2]);
     const auto& chosen = std::get<ContactResult>(results.results[3]);
     ASSERT_TRUE(by_cpu.status.ok() && chosen.status.ok());
     EXPECT_EQ(chosen.technique, Technique::cpu);
-    EXPECT_GT(by_cpu.records.size(), 5U);
-    EXPECT_EQ(chosen.records.size(), by_cpu.records.size());
+    EXPECT_GT(by_cpu.points.size(), 5U);
+    EXPECT_EQ(chosen.points.size(), by_cpu.points.size());
     EXPECT_TRUE(std::get<PenetrationResult>(results.results[4]).status.ok());
     // Submitted batches are all answered.
     EXPECT_EQ(run(automatic).empty(), false);
@@ -348,7 +348,7 @@ TEST_F(Recorded, ComputeBatchesRunInSecondaryCommandBuffers) {
         IntersectionQuery overlap{here, there, 0.03};
         DistanceFieldQuery field{here, there, 0.03};
         depths.technique = contacts.technique = overlap.technique = field.technique = technique;
-        contacts.resident = overlap.resident = field.resident = true;
+        contacts.on_device = overlap.resident = field.on_device = true;
         batch.add(depths);
         batch.add(contacts);
         batch.add(overlap);

@@ -39,7 +39,7 @@ Batch Scene::every(bool recordable) const {
 Batch Scene::small(double tolerance) const {
     Batch batch;
     IntersectionQuery query{{a, {}}, {b, {}}, tolerance};
-    query.records = false;
+    query.summary_only = true;
     query.technique = Technique::raster;
     batch.add(query);
     return batch;

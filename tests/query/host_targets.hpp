@@ -17,7 +17,7 @@ public:
     /// `extent`: of the level that is written.
     HostImage(test_support::HostGpu& gpu, VkFormat format, VkExtent2D extent);
 
-    [[nodiscard]] const ResidentImageTarget& target() const { return target_; }
+    [[nodiscard]] const ImageTarget& target() const { return target_; }
     /// Records the filling before nearfield's commands.
     void fill(VkCommandBuffer commands) const;
     /// Records what the host does next: a copy, then another filling.
@@ -33,7 +33,7 @@ private:
 
     test_support::HostGpu* gpu_;
     VkExtent2D extent_;
-    ResidentImageTarget target_;
+    ImageTarget target_;
     test_support::HostGpu::Buffer copied_;
 };
 
@@ -42,7 +42,7 @@ class HostBuffer {
 public:
     HostBuffer(test_support::HostGpu& gpu, std::uint64_t bytes);
 
-    [[nodiscard]] const ResidentBufferTarget& target() const { return target_; }
+    [[nodiscard]] const BufferTarget& target() const { return target_; }
     void fill(VkCommandBuffer commands) const;
     void use(VkCommandBuffer commands) const;
     /// The whole buffer as it was copied.
@@ -56,7 +56,7 @@ private:
     }
 
     test_support::HostGpu* gpu_;
-    ResidentBufferTarget target_;
+    BufferTarget target_;
     test_support::HostGpu::Buffer copied_;
 };
 

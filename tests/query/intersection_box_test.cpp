@@ -7,10 +7,10 @@ namespace nearfield::test {
 namespace {
 
 Rectangle box_of(const std::vector<IntersectionSample>& samples) {
-    Rectangle box{samples[0].point, samples[0].point};
+    Rectangle box{samples[0].position, samples[0].position};
     for (const IntersectionSample& sample : samples) {
-        box.min = {std::min(box.min.x, sample.point.x), std::min(box.min.y, sample.point.y)};
-        box.max = {std::max(box.max.x, sample.point.x), std::max(box.max.y, sample.point.y)};
+        box.min = {std::min(box.min.x, sample.position.x), std::min(box.min.y, sample.position.y)};
+        box.max = {std::max(box.max.x, sample.position.x), std::max(box.max.y, sample.position.y)};
     }
     return box;
 }
@@ -32,7 +32,7 @@ TEST_F(IntersectionBox, IsThatOfTheSamplesWithThemAndWithout) {
                 IntersectionQuery query = placed.intersection(kind);
                 const IntersectionResult with = run_alone(context(), query);
                 ASSERT_TRUE(with.status.ok()) << with.status.text();
-                query.records = false;
+                query.summary_only = true;
                 const IntersectionResult without = run_alone(context(), query);
                 ASSERT_TRUE(without.status.ok()) << without.status.text();
                 EXPECT_EQ(without.count, with.count);

@@ -127,7 +127,7 @@ TEST_F(Intersection, SummaryIsTheSameWithoutSamples) {
         for (const IntersectionKind kind : every_kind) {
             IntersectionQuery query = placed.intersection(kind);
             const auto with = run_alone(context(), query);
-            query.records = false;
+            query.summary_only = true;
             const auto without = run_alone(context(), query);
             ASSERT_TRUE(without.status.ok()) << without.status.text();
             EXPECT_TRUE(without.samples.empty());

@@ -12,10 +12,10 @@ class Lifetime : public QueryTest {};
 void expect_same(const PenetrationResult& a, const PenetrationResult& b) {
     ASSERT_TRUE(a.status.ok() && b.status.ok());
     EXPECT_EQ(a.intersects, b.intersects);
-    ASSERT_EQ(a.records.size(), b.records.size());
-    for (std::size_t i = 0; i < a.records.size(); ++i) {
-        EXPECT_EQ(a.records[i].point, b.records[i].point);
-        EXPECT_EQ(a.records[i].depth, b.records[i].depth);
+    ASSERT_EQ(a.points.size(), b.points.size());
+    for (std::size_t i = 0; i < a.points.size(); ++i) {
+        EXPECT_EQ(a.points[i].position, b.points[i].position);
+        EXPECT_EQ(a.points[i].depth, b.points[i].depth);
     }
 }
 
@@ -78,7 +78,7 @@ TEST_F(Lifetime, ThePointsOfAFieldMayChangeOnceItIsSubmitted) {
         ASSERT_TRUE(result.status.ok()) << result.status.text();
         ASSERT_EQ(result.points.size(), points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
-            EXPECT_EQ(result.points[i].point, asked.points[i].point) << i;
+            EXPECT_EQ(result.points[i].position, asked.points[i].position) << i;
             EXPECT_EQ(result.points[i].distance, asked.points[i].distance) << i;
         }
     }

@@ -37,11 +37,11 @@ TEST_F(LongLists, OfEdgesThatOneReplaces) {
         const PenetrationResult found = run_alone(context(), query);
         query.technique = Technique::cpu;
         const PenetrationResult exact = run_alone(context(), query);
-        ASSERT_EQ(found.records.size(), exact.records.size());
-        EXPECT_GT(exact.records.size(), 20U);
-        for (std::size_t i = 0; i < exact.records.size(); ++i) {
-            EXPECT_EQ(found.records[i].point, exact.records[i].point);
-            EXPECT_NEAR(found.records[i].depth, exact.records[i].depth, 1e-3 * pair.tolerance);
+        ASSERT_EQ(found.points.size(), exact.points.size());
+        EXPECT_GT(exact.points.size(), 20U);
+        for (std::size_t i = 0; i < exact.points.size(); ++i) {
+            EXPECT_EQ(found.points[i].position, exact.points[i].position);
+            EXPECT_NEAR(found.points[i].depth, exact.points[i].depth, 1e-3 * pair.tolerance);
         }
     }
 }

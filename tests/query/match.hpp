@@ -22,7 +22,9 @@ void match(std::vector<Record> one, std::vector<Record> other, const Both& both,
            const Alone& alone) {
     sort_by_point(one);
     sort_by_point(other);
-    const auto key = [](const Record& record) { return std::pair(record.point.x, record.point.y); };
+    const auto key = [](const Record& record) {
+        return std::pair(record.position.x, record.position.y);
+    };
     std::size_t i = 0;
     std::size_t j = 0;
     while (i < one.size() || j < other.size()) {

@@ -16,7 +16,8 @@ TEST_F(Pairs, AreThoseWhoseBoxesAreWithinReach) {
                                           {*square, {{3, 0}, 0.0}},
                                           {*square, {{3.9, 0.2}, 0.0}}};
     const auto pairs_within = [&](std::span<const Instance> all, double reach) {
-        const Expected<std::span<const InstancePair>> pairs = context().find_pairs(all, reach);
+        const Expected<std::span<const InstancePair>> pairs =
+            context().find_overlapping_boxes(all, reach);
         EXPECT_TRUE(pairs.has_value()) << pairs.error().text();
         return std::vector<InstancePair>(pairs->begin(), pairs->end());
     };
@@ -31,7 +32,8 @@ TEST_F(Pairs, FollowShapesThatChangeAndInstancesThatMove) {
     ASSERT_TRUE(shape.has_value());
     std::vector<Instance> instances{{*shape, {{0, 0}, 0.0}}, {*shape, {{3, 0}, 0.0}}};
     const auto count = [&] {
-        const Expected<std::span<const InstancePair>> pairs = context().find_pairs(instances, 0.0);
+        const Expected<std::span<const InstancePair>> pairs =
+            context().find_overlapping_boxes(instances, 0.0);
         EXPECT_TRUE(pairs.has_value()) << pairs.error().text();
         return pairs->size();
     };
@@ -50,15 +52,16 @@ TEST_F(Pairs, OfBadInstancesAreRefusedByPosition) {
     ASSERT_TRUE(square.has_value());
     std::vector<Instance> instances(3, {*square, {}});
     instances[1].pose.angle = std::nan("");
-    Status status = context().find_pairs(instances, 0.0).error();
+    Status status = context().find_overlapping_boxes(instances, 0.0).error();
     EXPECT_EQ(status.code(), StatusCode::invalid_query);
     EXPECT_NE(status.message().find("instance 1"), std::string::npos) << status.message();
     instances[1] = {};
-    status = context().find_pairs(instances, 0.0).error();
+    status = context().find_overlapping_boxes(instances, 0.0).error();
     EXPECT_EQ(status.code(), StatusCode::unknown_shape);
     const double bad[] = {-1.0, std::nan(""), std::numeric_limits<double>::infinity()};
     for (const double reach : bad) {
-        EXPECT_EQ(context().find_pairs({}, reach).error().code(), StatusCode::invalid_query);
+        EXPECT_EQ(context().find_overlapping_boxes({}, reach).error().code(),
+                  StatusCode::invalid_query);
     }
     ASSERT_TRUE(context().remove_shape(*square).ok());
 }

@@ -80,16 +80,16 @@ TEST_F(Penetration, OfEquallyDeepPointsTheFirstIsTheDeepest) {
             const PenetrationResult result = run_alone(context(), query);
             ASSERT_GT(result.count, 3U);
             const auto deepest =
-                std::max_element(result.records.begin(), result.records.end(),
-                                 [](const PenetrationRecord& one, const PenetrationRecord& other) {
+                std::max_element(result.points.begin(), result.points.end(),
+                                 [](const PenetratingPoint& one, const PenetratingPoint& other) {
                                      return one.depth < other.depth;
                                  });
-            EXPECT_EQ(std::count_if(result.records.begin(), result.records.end(),
-                                    [&](const PenetrationRecord& record) {
+            EXPECT_EQ(std::count_if(result.points.begin(), result.points.end(),
+                                    [&](const PenetratingPoint& record) {
                                         return record.depth == deepest->depth;
                                     }),
                       result.count);
-            EXPECT_EQ(result.deepest.point, deepest->point);
+            EXPECT_EQ(result.deepest.position, deepest->position);
         }
     }
 }
@@ -158,9 +158,9 @@ TEST_F(Penetration, DepthOfARectangleIsPlain) {
     EXPECT_EQ(result.deepest.feature.kind, Feature::Kind::edge);
     EXPECT_EQ(result.deepest.feature.index, 1U);
     EXPECT_NEAR(result.deepest.direction.x, 1.0, 1e-9);
-    for (const PenetrationRecord& record : result.records) {
-        EXPECT_TRUE(record.unique) << record.point.x << ", " << record.point.y;
-        EXPECT_NEAR(record.depth, 10.0 - record.point.x, 1e-6);
+    for (const PenetratingPoint& record : result.points) {
+        EXPECT_TRUE(record.unique) << record.position.x << ", " << record.position.y;
+        EXPECT_NEAR(record.depth, 10.0 - record.position.x, 1e-6);
     }
 }
 
@@ -172,11 +172,11 @@ TEST_F(Penetration, DirectionsOnTheMedialAxisAreNotUnique) {
     const PenetrationResult result = run_alone(context(), pair.penetration());
     ASSERT_TRUE(result.status.ok()) << result.status.text();
     int on_axis = 0;
-    for (const PenetrationRecord& record : result.records) {
-        const bool middle = std::abs(record.point.y) < 1e-6;
+    for (const PenetratingPoint& record : result.points) {
+        const bool middle = std::abs(record.position.y) < 1e-6;
         on_axis += middle ? 1 : 0;
-        if (middle || std::abs(record.point.y) > 1e-3) {
-            EXPECT_EQ(record.unique, !middle) << record.point.x << ", " << record.point.y;
+        if (middle || std::abs(record.position.y) > 1e-3) {
+            EXPECT_EQ(record.unique, !middle) << record.position.x << ", " << record.position.y;
         }
     }
     EXPECT_GT(on_axis, 10);
@@ -189,15 +189,15 @@ TEST_F(Penetration, SummaryIsTheSameWithoutRecords) {
         for (const PenetrationPoints points : both_ways) {
             PenetrationQuery query = placed.penetration(points);
             const PenetrationResult with = run_alone(context(), query);
-            query.records = false;
+            query.summary_only = true;
             const PenetrationResult without = run_alone(context(), query);
             ASSERT_TRUE(without.status.ok()) << without.status.text();
-            EXPECT_TRUE(without.records.empty());
+            EXPECT_TRUE(without.points.empty());
             EXPECT_EQ(with.count, without.count);
             EXPECT_EQ(with.intersects, without.intersects);
             if (with.count > 0) {
                 EXPECT_EQ(with.deepest.depth, without.deepest.depth);
-                EXPECT_EQ(with.deepest.point, without.deepest.point);
+                EXPECT_EQ(with.deepest.position, without.deepest.position);
             }
         }
     }

@@ -103,7 +103,7 @@ TEST_F(Placement, FarApartIsEmptyAndHasNoRegions) {
             ASSERT_TRUE(result.status.ok()) << result.status.text();
             EXPECT_FALSE(result.intersects);
             EXPECT_EQ(result.count, 0U);
-            EXPECT_TRUE(result.records.empty());
+            EXPECT_TRUE(result.points.empty());
             EXPECT_TRUE(result.regions.empty());
         }
         for (const auto kind :

@@ -67,9 +67,9 @@ protected:
         const PlacedPair placed(context(), pair, Technique::compute);
         const PenetrationResult found =
             run_alone(context(), placed.penetration(PenetrationPoints::vertices));
-        ASSERT_EQ(found.records.size(), depths.size());
+        ASSERT_EQ(found.points.size(), depths.size());
         for (std::size_t i = 0; i < depths.size(); ++i) {
-            EXPECT_NEAR(found.records[i].depth, depths[i], found.error_bound) << "vertex " << i;
+            EXPECT_NEAR(found.points[i].depth, depths[i], found.error_bound) << "vertex " << i;
         }
     }
 
@@ -93,8 +93,8 @@ private:
                               PenetrationResult found) {
         PenetrationQuery query = pair.penetration(points);
         query.technique = Technique::compute;
-        query.records = false;
-        found.records.clear();
+        query.summary_only = true;
+        found.points.clear();
         EXPECT_EQ(numbers(context, query), numbers_of(std::move(found)));
     }
 

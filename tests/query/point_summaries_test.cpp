@@ -20,7 +20,7 @@ constexpr std::uint64_t seed = 52000;
 class PointSummaries : public QueryTest {
 protected:
     static std::vector<double> numbers_of(PenetrationResult result) {
-        result.records.clear();
+        result.points.clear();
         Results results;
         results.results.emplace_back(std::move(result));
         return all_numbers(results);
@@ -40,7 +40,7 @@ protected:
             for (const PenetrationPoints points : all_points) {
                 PenetrationQuery query = one.penetration(points);
                 records.push_back(with_records.add(query));
-                query.records = false;
+                query.summary_only = true;
                 summaries.push_back(mixed.add(query));
             }
             if (placed.size() % 3 == 0) {
@@ -65,7 +65,7 @@ protected:
         EXPECT_EQ(numbers_of(found), numbers_of(expected));
         PenetrationQuery query = pair.penetration(points);
         query.technique = Technique::cpu;
-        query.records = false;
+        query.summary_only = true;
         PenetrationResult by_cpu = run_alone(context(), query);
         by_cpu.technique = found.technique;
         by_cpu.regions = found.regions;
@@ -149,10 +149,10 @@ TEST_F(PointSummaries, HoldForPairsOfWhichFewHavePoints) {
         pair.pose_a.translation = {random.between(0.0, 1.3), 0.1};
         placed.push_back(std::make_unique<PlacedPair>(context(), pair, Technique::compute));
         PenetrationQuery query = placed.back()->penetration();
-        query.records = false;
+        query.summary_only = true;
         handles.push_back(batch.add(query));
         query = nothing.penetration();
-        query.records = false;
+        query.summary_only = true;
         for (int between = 1; between < 64; ++between) {
             batch.add(query);
         }
@@ -175,7 +175,7 @@ TEST_F(PointSummaries, CountPointsByTheHundredThousand) {
     pair.tolerance = 3e-5;
     const PlacedPair placed(context(), pair, Technique::compute);
     PenetrationQuery query = placed.penetration();
-    query.records = false;
+    query.summary_only = true;
     const PenetrationResult found = run_alone(context(), query);
     query.technique = Technique::cpu;
     const PenetrationResult expected = run_alone(context(), query);

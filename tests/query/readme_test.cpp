@@ -51,15 +51,15 @@ TEST(Readme, TheExamplesWork) {
     };
 
     // ----
-    auto world = nearfield::World::create(context);
-    auto crate = world->add({.shape = arrow, .pose = pose});
-    auto wall = world->add({.shape = channel});
+    nearfield::World world(context);
+    auto crate = world.add({.shape = arrow, .pose = pose});
+    auto wall = world.add({.shape = channel});
     nearfield::PairTable contacts(
         nearfield::ContactQuery{.tolerance = 0.01, .contact_distance = 0.02}, {.hits_only = true});
     for (const nearfield::Pose& step : steps) {
-        nearfield::Status status = world->move(*crate, step);
+        nearfield::Status status = world.move(*crate, step);
         if (status.ok()) {
-            status = world->update(contacts);
+            status = world.update(contacts);
         }
         if (!status.ok()) {
             std::puts(status.text().c_str());

@@ -64,7 +64,7 @@ void check_sides(const Scene& scene, const Picture& picture, const ContactResult
             const double distance = scene.pair.b().signed_distance(place);
             const Shown what = shown(picture.at(column, row));
             const bool near_a_contact = std::any_of(
-                contacts.records.begin(), contacts.records.end(), [&](const ContactRecord& record) {
+                contacts.records.begin(), contacts.records.end(), [&](const ContactPoint& record) {
                     return std::hypot(record.point.x - place.x, record.point.y - place.y) <
                            1.1 * scene.shot.arrow_length;
                 });
@@ -83,7 +83,7 @@ void check_sides(const Scene& scene, const Picture& picture, const ContactResult
 /// The middle of the shaft of every contact's arrow is drawn.
 void check_arrows(const Scene& scene, const Picture& picture, const ContactResult& contacts) {
     ASSERT_GT(contacts.records.size(), 20U);
-    for (const ContactRecord& record : contacts.records) {
+    for (const ContactPoint& record : contacts.records) {
         const double along = 0.4 * scene.shot.arrow_length;
         const Vector2 place{record.point.x + along * record.normal.x,
                             record.point.y + along * record.normal.y};
@@ -122,10 +122,10 @@ TEST_F(ResidentDrawing, AHostDrawsFieldContactsAndOverlapWithoutAnyReadBack) {
         field.technique = technique;
         field.rectangle = Rectangle{{-1.5, -1.15}, {1.5, 1.15}};
         field.values = false;
-        field.resident = true;
+        field.on_device = true;
         ContactQuery contacts = scene.pair.contacts(0.04);
         contacts.tolerance = 0.04;
-        contacts.resident = true;
+        contacts.on_device = true;
         IntersectionQuery overlap = scene.pair.intersection(IntersectionKind::volume_volume);
         overlap.tolerance = 0.03;
         overlap.resident = true;
@@ -136,9 +136,9 @@ TEST_F(ResidentDrawing, AHostDrawsFieldContactsAndOverlapWithoutAnyReadBack) {
         const auto overlap_handle = batch.add(overlap);
         const Expected<Ticket> ticket = context().submit(batch);
         ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
-        const Expected<ResidentField> images = context().resident(*ticket, field_handle);
-        const Expected<ResidentRecords> records = context().resident(*ticket, contacts_handle);
-        const Expected<ResidentSamples> samples = context().resident(*ticket, overlap_handle);
+        const Expected<FieldOnDevice> images = context().resident(*ticket, field_handle);
+        const Expected<PointsOnDevice> records = context().resident(*ticket, contacts_handle);
+        const Expected<SamplesOnDevice> samples = context().resident(*ticket, overlap_handle);
         ASSERT_TRUE(images.has_value() && records.has_value() && samples.has_value());
         // Drawn before anything is collected: nothing has been read back to the CPU.
         const Picture picture = view.draw({*images, *records, *samples}, scene.shot);

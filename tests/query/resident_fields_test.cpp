@@ -13,10 +13,10 @@ TEST_F(Resident, FieldImagesHoldWhatComesBack) {
         for (const Technique technique : device_techniques) {
             const PlacedPair pair(context(), any_pair(random), technique);
             SCOPED_TRACE(describe(pair.pair()));
-            ResidentField field;
+            FieldOnDevice field;
             FieldContents contents;
             const DistanceFieldResult result =
-                ask(context(), field_of(pair, technique), [&](const ResidentField& resident) {
+                ask(context(), field_of(pair, technique), [&](const FieldOnDevice& resident) {
                     field = resident;
                     contents = contents_of(resident);
                 });
@@ -39,10 +39,10 @@ TEST_F(Resident, FieldsOfEveryFamilyAndOfSeveralTilesWithHalos) {
             query.gradient = GradientMethod::central_differences;
             query.gradients = true;
         }
-        ResidentField field;
+        FieldOnDevice field;
         FieldContents contents;
         const DistanceFieldResult result =
-            ask(context(), query, [&](const ResidentField& resident) {
+            ask(context(), query, [&](const FieldOnDevice& resident) {
                 field = resident;
                 contents = contents_of(resident);
             });
@@ -59,17 +59,17 @@ TEST_F(Resident, FieldOfDistancesAlone) {
             DistanceFieldQuery query = field_of(pair, technique);
             query.features = false;
             std::vector<float> with_features;
-            ask(context(), query, [&](const ResidentField& resident) {
+            ask(context(), query, [&](const FieldOnDevice& resident) {
                 EXPECT_NE(resident.feature.image, VkImage{VK_NULL_HANDLE});
                 with_features = contents_of(resident).values;
             });
-            query.resident_features = false;
+            query.features_on_device = false;
             for (const bool returns_features : {false, true}) {
                 query.features = returns_features;
                 FieldContents contents;
                 VkExtent2D extent{};
                 const DistanceFieldResult result =
-                    ask(context(), query, [&](const ResidentField& resident) {
+                    ask(context(), query, [&](const FieldOnDevice& resident) {
                         EXPECT_EQ(resident.feature.image, VkImage{VK_NULL_HANDLE});
                         EXPECT_EQ(resident.feature.view, VkImageView{VK_NULL_HANDLE});
                         extent = resident.image_extent;
@@ -105,9 +105,9 @@ TEST_F(Resident, FieldOfManyRoundsOfWhichNothingComesBack) {
         query.rectangle = Rectangle{{-1.2, -1.2}, {1.2, 0.4}};
         const DistanceFieldResult expected = run_alone(*made, query);
         query.values = query.features = false;
-        ResidentField field;
+        FieldOnDevice field;
         FieldContents contents;
-        const DistanceFieldResult result = ask(*made, query, [&](const ResidentField& resident) {
+        const DistanceFieldResult result = ask(*made, query, [&](const FieldOnDevice& resident) {
             field = resident;
             contents = contents_of(resident);
         });

@@ -56,8 +56,8 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
     Frame former = submit(0);
     for (int number = 1; number < 8; ++number) {
         const Frame next = submit(number);
-        const Expected<ResidentField> field = made->resident(former.ticket, former.field);
-        const Expected<ResidentRecords> records = made->resident(former.ticket, former.depths);
+        const Expected<FieldOnDevice> field = made->resident(former.ticket, former.field);
+        const Expected<PointsOnDevice> records = made->resident(former.ticket, former.depths);
         ASSERT_TRUE(field.has_value() && records.has_value());
         const FieldContents contents = contents_of(*field);
         const RecordsContents depths = contents_of(*records);
@@ -84,12 +84,12 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
         const PlacedPair pair(*made, shapes, technique);
         const auto ask_all = [&](bool resident, std::size_t& records) {
             DistanceFieldQuery field = field_of(pair, technique);
-            field.resident = resident;
+            field.on_device = resident;
             const std::vector<Vector2> points{field.rectangle->min};
             PenetrationQuery depths = pair.penetration();
             depths.resident = resident;
             ContactQuery contacts = pair.contacts(0.05);
-            contacts.resident = resident;
+            contacts.on_device = resident;
             Batch batch;
             IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
             overlap.resident = resident;
@@ -97,7 +97,7 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
             batch.add(field);
             const auto of_depths = batch.add(depths);
             batch.add(contacts);
-            field.resident = false;
+            field.on_device = false;
             field.points = points;
             batch.add(field);
             Results results;
@@ -128,9 +128,9 @@ TEST_F(Resident, ImagesOnlyGrow) {
     VkImage former = VK_NULL_HANDLE;
     for (const double width : {1.0, 0.5, 1.0, 1.5}) {
         query.rectangle = Rectangle{{-0.5, -0.5}, {-0.5 + width, 0.5}};
-        ResidentField field;
+        FieldOnDevice field;
         FieldContents contents;
-        const DistanceFieldResult result = ask(*made, query, [&](const ResidentField& resident) {
+        const DistanceFieldResult result = ask(*made, query, [&](const FieldOnDevice& resident) {
             field = resident;
             contents = contents_of(resident);
         });
@@ -157,7 +157,7 @@ TEST_F(Resident, RefusesByName) {
     field.b = here;
     field.tolerance = 0.1;
     field.rectangle = Rectangle{{0.0, 0.0}, {1.0, 1.0}};
-    field.resident = true;
+    field.on_device = true;
     DistanceFieldQuery huge = field;
     huge.rectangle = Rectangle{{0.0, 0.0}, {40000.0, 1.0}};
     huge.tolerance = 0.5;
@@ -204,7 +204,7 @@ TEST_F(Resident, AutomaticAnswersOnTheDevice) {
     const ShapeHandle shape = *made->add_shape(regular(5));
     PenetrationQuery query{{shape, {}}, {shape, {{0.3, 0.0}, 0.1}}, 0.1};
     EXPECT_EQ(run_alone(*made, query).technique, Technique::cpu);
-    query.resident = true;
+    query.on_device = true;
     const PenetrationResult result = run_alone(*made, query);
     EXPECT_TRUE(result.status.ok()) << result.status.text();
     EXPECT_NE(result.technique, Technique::cpu);

@@ -49,14 +49,14 @@ protected:
         field.b = b;
         field.tolerance = tolerance;
         field.rectangle = Rectangle{{-1.5, -1.25}, {1.0, 1.5}};
-        field.resident = true;
+        field.on_device = true;
         PenetrationQuery depths{a, b, tolerance};
         ContactQuery contacts{a, b, tolerance, 0.05};
         IntersectionQuery overlap{a, b, tolerance};
         depths.technique = contacts.technique = overlap.technique = Technique::raster;
-        depths.resident = contacts.resident = overlap.resident = true;
+        depths.resident = contacts.on_device = overlap.resident = true;
         IntersectionQuery counted = overlap;
-        counted.resident_samples = false;
+        counted.samples_on_device = false;
         asked.field = asked.batch.add(field);
         asked.depths = asked.batch.add(depths);
         asked.contacts = asked.batch.add(contacts);
@@ -76,7 +76,7 @@ private:
 };
 
 /// The arguments of a header for this many points.
-void expect_arguments(const ResidentHeaderData& header, std::uint32_t count) {
+void expect_arguments(const HeaderData& header, std::uint32_t count) {
     EXPECT_EQ(header.count, count);
     EXPECT_EQ(header.points.vertexCount, count);
     EXPECT_EQ(header.points.instanceCount, 1U);
@@ -91,7 +91,7 @@ void expect_arguments(const ResidentHeaderData& header, std::uint32_t count) {
 }
 
 template <class Output>
-void expect_frame(const ResidentHeaderData& header, const Output& output) {
+void expect_frame(const HeaderData& header, const Output& output) {
     EXPECT_EQ(header.origin[0], static_cast<float>(output.origin.x));
     EXPECT_EQ(header.origin[1], static_cast<float>(output.origin.y));
 }
@@ -110,11 +110,11 @@ TEST_F(ResidentLayout, HeadersSayWhatThereIs) {
         const auto header = [&](const auto& output) {
             return reader().read(output.header, depths->state);
         };
-        const ResidentHeaderData of_depths = header(*depths);
-        const ResidentHeaderData of_contacts = header(*contacts);
-        const ResidentHeaderData of_overlap = header(*overlap);
-        const ResidentHeaderData of_counted = header(*counted);
-        const ResidentHeaderData of_field = header(*field);
+        const HeaderData of_depths = header(*depths);
+        const HeaderData of_contacts = header(*contacts);
+        const HeaderData of_overlap = header(*overlap);
+        const HeaderData of_counted = header(*counted);
+        const HeaderData of_field = header(*field);
         const std::uint32_t records = contents_of(*depths).summary.count;
         const std::uint32_t near = contents_of(*contacts).summary.count;
         const std::uint32_t samples = contents_of(*overlap).summary.count;
@@ -152,22 +152,22 @@ TEST_F(ResidentLayout, HeadersSayWhatThereIs) {
 }
 
 /// True if the descriptor sets of one serve the other.
-bool same_places(const ResidentRecords& a, const ResidentRecords& b) {
+bool same_places(const PointsOnDevice& a, const PointsOnDevice& b) {
     return a.buffer == b.buffer && a.offset == b.offset && a.header.buffer == b.header.buffer &&
            a.header.offset == b.header.offset;
 }
 
-bool same_places(const ResidentField& a, const ResidentField& b) {
+bool same_places(const FieldOnDevice& a, const FieldOnDevice& b) {
     return a.signed_distance.view == b.signed_distance.view && a.feature.view == b.feature.view &&
            a.header.buffer == b.header.buffer && a.header.offset == b.header.offset;
 }
 
 TEST_F(ResidentLayout, IsKnownBeforeTheFirstFrame) {
     const Asked first = ask(0.0);
-    const auto fields = made().resident_layout(first.batch, first.field);
-    const auto depths = made().resident_layout(first.batch, first.depths);
-    const auto contacts = made().resident_layout(first.batch, first.contacts);
-    const auto samples = made().resident_layout(first.batch, first.overlap);
+    const auto fields = made().layout_on_device(first.batch, first.field);
+    const auto depths = made().layout_on_device(first.batch, first.depths);
+    const auto contacts = made().layout_on_device(first.batch, first.contacts);
+    const auto samples = made().layout_on_device(first.batch, first.overlap);
     ASSERT_TRUE(fields && depths && contacts && samples);
     ASSERT_EQ(fields->size(), frames);
     std::vector<std::vector<double>> numbers;
@@ -211,8 +211,8 @@ TEST_F(ResidentLayout, RecordsThatMoveSaySo) {
     for (const double tolerance : {0.03, 0.01, 0.003}) {
         PenetrationQuery query{{shape_, {{0.1, 0.0}, 0.4}}, {other_, {}}, tolerance};
         query.technique = Technique::raster;
-        query.resident = true;
-        Resident::ask(made(), query, [&](const ResidentRecords& records) {
+        query.on_device = true;
+        Resident::ask(made(), query, [&](const PointsOnDevice& records) {
             EXPECT_EQ(records.slot.index, 0U);
             // Room for half as much again is not enough for three times as many points.
             EXPECT_NE(records.slot.revision, revision) << tolerance;
@@ -241,7 +241,7 @@ struct PosedQueries {
     PosedQueries(ShapeHandle moving, const Pose& pose, const Instance& fixed) {
         PenetrationQuery penetration{{moving, pose}, fixed, 0.02};
         penetration.technique = Technique::raster;
-        penetration.resident = true;
+        penetration.on_device = true;
         depths = batch.add(penetration);
         penetration.points = PenetrationPoints::vertices;
         vertices = batch.add(penetration);
@@ -268,10 +268,10 @@ TEST_F(ResidentLayout, SizesStayWithinTheBoundOfAllPoses) {
     // Known where the shapes are far apart and nothing is examined.
     const PosedQueries apart(moving, {{10.0, 0.0}, 0.0}, fixed);
     const auto of_apart = [&](auto query) {
-        return made().resident_layout(apart.batch, query)->front();
+        return made().layout_on_device(apart.batch, query)->front();
     };
-    const std::array<ResidentRecords, 3> bounds{of_apart(apart.depths), of_apart(apart.vertices),
-                                                of_apart(apart.contacts)};
+    const std::array<PointsOnDevice, 3> bounds{of_apart(apart.depths), of_apart(apart.vertices),
+                                               of_apart(apart.contacts)};
     std::array<VkDeviceSize, 3> greatest{};
     for (int i = 0; i < 30; ++i) {
         // First wholly inside.
@@ -281,15 +281,15 @@ TEST_F(ResidentLayout, SizesStayWithinTheBoundOfAllPoses) {
         const PosedQueries asked(moving, pose, fixed);
         const Expected<Ticket> ticket = made().submit(asked.batch);
         ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
-        const std::array<ResidentRecords, 3> records{*made().resident(*ticket, asked.depths),
-                                                     *made().resident(*ticket, asked.vertices),
-                                                     *made().resident(*ticket, asked.contacts)};
+        const std::array<PointsOnDevice, 3> records{*made().resident(*ticket, asked.depths),
+                                                    *made().resident(*ticket, asked.vertices),
+                                                    *made().resident(*ticket, asked.contacts)};
         for (std::size_t kind = 0; kind < records.size(); ++kind) {
             EXPECT_EQ(records[kind].max_size, bounds[kind].max_size) << kind;
             EXPECT_LE(records[kind].size, bounds[kind].max_size) << kind;
             greatest[kind] = std::max(greatest[kind], records[kind].size);
         }
-        const ResidentSamples samples = *made().resident(*ticket, asked.overlap);
+        const SamplesOnDevice samples = *made().resident(*ticket, asked.overlap);
         const double side = diameter(rings) / samples.cell + 1.0;
         EXPECT_LE(samples.capacity, side * side);
         Results results;
@@ -307,13 +307,13 @@ TEST_F(ResidentLayout, IsRefusedByName) {
     const auto message = [](const auto& expected) { return expected.error().message(); };
     Batch other;
     const auto foreign = other.add(DistanceFieldQuery{});
-    EXPECT_EQ(made().resident_layout(asked.batch, foreign).error().code(),
+    EXPECT_EQ(made().layout_on_device(asked.batch, foreign).error().code(),
               StatusCode::invalid_query);
-    EXPECT_NE(message(made().resident_layout(asked.batch, foreign)).find("of another batch"),
+    EXPECT_NE(message(made().layout_on_device(asked.batch, foreign)).find("of another batch"),
               std::string::npos);
     const Expected<Ticket> ticket = made().submit(asked.batch);
     ASSERT_TRUE(ticket.has_value());
-    EXPECT_EQ(made().resident_layout(asked.batch, asked.field).error().code(),
+    EXPECT_EQ(made().layout_on_device(asked.batch, asked.field).error().code(),
               StatusCode::not_ready);
     EXPECT_NE(message(made().resident(*ticket, foreign)).find("of another batch"),
               std::string::npos);

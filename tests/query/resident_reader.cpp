@@ -9,10 +9,10 @@ namespace {
 FeatureContents taken_apart(std::uint32_t id) {
     FeatureContents contents;
     contents.feature.kind =
-        (id & resident_feature::vertex) != 0 ? Feature::Kind::vertex : Feature::Kind::edge;
-    contents.feature.index = id & resident_feature::index_mask;
-    contents.unique = (id & resident_feature::unique) != 0;
-    contents.inside = (id & resident_feature::inside) != 0;
+        (id & feature_bits::vertex) != 0 ? Feature::Kind::vertex : Feature::Kind::edge;
+    contents.feature.index = id & feature_bits::index_mask;
+    contents.unique = (id & feature_bits::unique) != 0;
+    contents.inside = (id & feature_bits::inside) != 0;
     return contents;
 }
 
@@ -37,15 +37,15 @@ RecordContents taken_apart(const RecordData& record, const Vector2& origin) {
     contents.nearest = in_world(record.nearest, origin);
     contents.normal = {record.normal[0], record.normal[1]};
     contents.distance = record.distance;
-    contents.on = (record.flags & resident_flags::on_b) != 0 ? Side::b : Side::a;
-    contents.touching = (record.flags & resident_flags::touching) != 0;
+    contents.on = (record.flags & point_flags::on_b) != 0 ? Side::b : Side::a;
+    contents.touching = (record.flags & point_flags::touching) != 0;
     contents.place = record.place;
     return contents;
 }
 
 }  // namespace
 
-FieldContents ResidentReader::read(const ResidentField& field) {
+FieldContents ResidentReader::read(const FieldOnDevice& field) {
     FieldContents contents;
     const VkExtent2D extent{field.width, field.height};
     for (const std::uint32_t word : gpu_.read(field.signed_distance, extent, field.state)) {
@@ -59,7 +59,7 @@ FieldContents ResidentReader::read(const ResidentField& field) {
     return contents;
 }
 
-RecordsContents ResidentReader::read(const ResidentRecords& records) {
+RecordsContents ResidentReader::read(const PointsOnDevice& records) {
     const std::vector<std::uint32_t> words =
         gpu_.read(records.buffer, records.offset, records.size, records.state);
     RecordsContents contents;
@@ -72,12 +72,12 @@ RecordsContents ResidentReader::read(const ResidentRecords& records) {
     return contents;
 }
 
-ResidentHeaderData ResidentReader::read(const ResidentHeader& header, const ResidentState& state) {
-    return structure_at<ResidentHeaderData>(
-        gpu_.read(header.buffer, header.offset, sizeof(ResidentHeaderData), state), 0);
+HeaderData ResidentReader::read(const HeaderOnDevice& header, const OutputState& state) {
+    return structure_at<HeaderData>(
+        gpu_.read(header.buffer, header.offset, sizeof(HeaderData), state), 0);
 }
 
-SamplesContents ResidentReader::read(const ResidentSamples& samples) {
+SamplesContents ResidentReader::read(const SamplesOnDevice& samples) {
     const std::vector<std::uint32_t> words =
         gpu_.read(samples.buffer, samples.offset, samples.size, samples.state);
     SamplesContents contents;

@@ -56,11 +56,11 @@ class ResidentReader {
 public:
     explicit ResidentReader(const HostDevice& host) : gpu_(host) {}
 
-    [[nodiscard]] FieldContents read(const ResidentField& field);
-    [[nodiscard]] RecordsContents read(const ResidentRecords& records);
-    [[nodiscard]] SamplesContents read(const ResidentSamples& samples);
+    [[nodiscard]] FieldContents read(const FieldOnDevice& field);
+    [[nodiscard]] RecordsContents read(const PointsOnDevice& records);
+    [[nodiscard]] SamplesContents read(const SamplesOnDevice& samples);
     /// The header of an output in this state of a buffer.
-    [[nodiscard]] ResidentHeaderData read(const ResidentHeader& header, const ResidentState& state);
+    [[nodiscard]] HeaderData read(const HeaderOnDevice& header, const OutputState& state);
 
 private:
     test_support::HostGpu gpu_;

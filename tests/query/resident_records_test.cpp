@@ -29,17 +29,17 @@ struct Claim {
     Side on = Side::a;
 };
 
-Claim claim_of(const PenetrationRecord& record) {
+Claim claim_of(const PenetratingPoint& record) {
     return {record.point,   record.nearest, record.direction, record.depth,
             record.feature, true,           record.unique,    Side::a};
 }
 
-Claim claim_of(const ContactRecord& record) {
+Claim claim_of(const ContactPoint& record) {
     return {record.point,   record.nearest, record.normal, record.distance,
             record.feature, record.inside,  record.unique, record.on};
 }
 
-void check_record(const PlacedPair& pair, const ResidentRecords& resident,
+void check_record(const PlacedPair& pair, const PointsOnDevice& resident,
                   const RecordContents& record, const Claim& claim, RecordComparison& comparison) {
     const double bound = resident.error_bound;
     const auto within = [&](double error, const char* what) {
@@ -73,7 +73,7 @@ void check_record(const PlacedPair& pair, const ResidentRecords& resident,
 /// Both sides have their records in the same order; a record that one side lacks must be a
 /// borderline case.
 template <class Record, class IsCloseCall>
-RecordComparison compare_records(const PlacedPair& pair, const ResidentRecords& resident,
+RecordComparison compare_records(const PlacedPair& pair, const PointsOnDevice& resident,
                                  const RecordsContents& contents,
                                  const std::vector<Record>& records,
                                  const IsCloseCall& is_close_call) {
@@ -101,13 +101,13 @@ RecordComparison compare_records(const PlacedPair& pair, const ResidentRecords& 
     return comparison;
 }
 
-void check_summary(const ResidentRecords& resident, const RecordsContents& contents) {
+void check_summary(const PointsOnDevice& resident, const RecordsContents& contents) {
     const SummaryData& summary = contents.summary;
     EXPECT_EQ(summary.capacity, resident.capacity);
     ASSERT_LE(summary.count, summary.capacity);
     ASSERT_EQ(contents.records.size(), summary.count);
     if (summary.count == 0) {
-        EXPECT_EQ(summary.deepest, no_record);
+        EXPECT_EQ(summary.deepest, no_point);
         return;
     }
     std::uint32_t deepest = 0;
@@ -139,8 +139,8 @@ TEST_F(Resident, RecordBoundCoversTheExtentOfBothShapes) {
     for (const Technique technique : device_techniques) {
         const PlacedPair pair(context(), needle, technique);
         PenetrationQuery query = pair.penetration(PenetrationPoints::vertices);
-        query.resident = true;
-        const PenetrationResult result = ask(context(), query, [](const ResidentRecords& resident) {
+        query.on_device = true;
+        const PenetrationResult result = ask(context(), query, [](const PointsOnDevice& resident) {
             EXPECT_GE(resident.error_bound, std::ldexp(101.9, -19));
             EXPECT_LE(resident.error_bound, std::ldexp(110.0, -18));
         });
@@ -156,18 +156,18 @@ TEST_F(Resident, PenetrationRecordsAreTheCpusWithinTheBound) {
             const PlacedPair pair(context(), any_pair(random), technique);
             SCOPED_TRACE(describe(pair.pair()));
             PenetrationQuery query = pair.penetration();
-            query.resident = true;
-            ResidentRecords resident;
+            query.on_device = true;
+            PointsOnDevice resident;
             RecordsContents contents;
             const PenetrationResult result =
-                ask(context(), query, [&](const ResidentRecords& records) {
+                ask(context(), query, [&](const PointsOnDevice& records) {
                     resident = records;
                     contents = contents_of(records);
                 });
             check_summary(resident, contents);
             const double touching = std::ldexp(result.cell, -15);
             const RecordComparison comparison = compare_records(
-                pair, resident, contents, result.records,
+                pair, resident, contents, result.points,
                 [&](double distance) { return distance <= touching + 2.0 * resident.error_bound; });
             compared += comparison.compared;
             largest = std::max(largest, comparison.largest_error);
@@ -187,23 +187,23 @@ TEST_F(Resident, ContactRecordsAreTheCpusWithinTheBound) {
             const PlacedPair pair(context(), any_pair(random), technique);
             SCOPED_TRACE(describe(pair.pair()));
             ContactQuery query = pair.contacts(1.5 * pair.tolerance());
-            query.resident = true;
-            ResidentRecords resident;
+            query.on_device = true;
+            PointsOnDevice resident;
             RecordsContents contents;
-            const ContactResult result = ask(context(), query, [&](const ResidentRecords& records) {
+            const ContactResult result = ask(context(), query, [&](const PointsOnDevice& records) {
                 resident = records;
                 contents = contents_of(records);
             });
             check_summary(resident, contents);
             const RecordComparison comparison =
-                compare_records(pair, resident, contents, result.records, [&](double distance) {
+                compare_records(pair, resident, contents, result.points, [&](double distance) {
                     return std::abs(distance - query.contact_distance) <=
                            2.0 * resident.error_bound;
                 });
             compared += comparison.compared;
             of_b += static_cast<std::size_t>(
-                std::count_if(result.records.begin(), result.records.end(),
-                              [](const ContactRecord& record) { return record.on == Side::b; }));
+                std::count_if(result.points.begin(), result.points.end(),
+                              [](const ContactPoint& record) { return record.on == Side::b; }));
         }
     });
     EXPECT_GT(compared, 1000U);
@@ -230,10 +230,10 @@ TEST_F(Resident, NormalsAtCornersPointOut) {
                 const PlacedPair pair(
                     context(), {{"A", {corner.a}}, {"B", {corner.b}}, {}, {}, 0.05}, technique);
                 ContactQuery query = pair.contacts(0.1);
-                query.resident = true;
+                query.on_device = true;
                 RecordsContents contents;
                 ask(context(), query,
-                    [&](const ResidentRecords& records) { contents = contents_of(records); });
+                    [&](const PointsOnDevice& records) { contents = contents_of(records); });
                 const auto at_corner = std::find_if(
                     contents.records.begin(), contents.records.end(), [](const auto& record) {
                         return record.on == Side::a && record.distance < 1e-5 &&
@@ -261,10 +261,10 @@ TEST_F(Resident, RecordsOfManyRoundsSayWhereTheyBelong) {
     for (const Technique technique : device_techniques) {
         const PlacedPair pair(*made, shapes, technique);
         PenetrationQuery query = pair.penetration();
-        query.resident = true;
-        ResidentRecords resident;
+        query.on_device = true;
+        PointsOnDevice resident;
         RecordsContents contents;
-        const PenetrationResult result = ask(*made, query, [&](const ResidentRecords& records) {
+        const PenetrationResult result = ask(*made, query, [&](const PointsOnDevice& records) {
             resident = records;
             contents = contents_of(records);
         });
@@ -276,7 +276,7 @@ TEST_F(Resident, RecordsOfManyRoundsSayWhereTheyBelong) {
         EXPECT_FALSE(std::is_sorted(contents.records.begin(), contents.records.end(), by_place));
         std::sort(contents.records.begin(), contents.records.end(), by_place);
         const RecordComparison comparison =
-            compare_records(pair, resident, contents, result.records, [&](double distance) {
+            compare_records(pair, resident, contents, result.points, [&](double distance) {
                 return distance <= std::ldexp(result.cell, -15) + 2.0 * resident.error_bound;
             });
         EXPECT_GT(comparison.compared, 500U);
@@ -292,14 +292,14 @@ TEST_F(Resident, WhereNothingMeetsTheSummaryIsEmpty) {
     for (const Technique technique : device_techniques) {
         const PlacedPair pair(context(), apart, technique);
         PenetrationQuery query = pair.penetration();
-        query.resident = true;
+        query.on_device = true;
         RecordsContents contents;
         contents.summary.count = 7;
         ask(context(), query,
-            [&](const ResidentRecords& records) { contents = contents_of(records); });
+            [&](const PointsOnDevice& records) { contents = contents_of(records); });
         EXPECT_EQ(contents.summary.count, 0U);
         EXPECT_EQ(contents.summary.capacity, 0U);
-        EXPECT_EQ(contents.summary.deepest, no_record);
+        EXPECT_EQ(contents.summary.deepest, no_point);
     }
 }
 

@@ -19,7 +19,7 @@ constexpr std::array strategies_of_samples{
 
 /// The resident output of an intersection, and the result on the CPU.
 struct Kept {
-    ResidentSamples resident;
+    SamplesOnDevice resident;
     SamplesContents contents;
     IntersectionResult result;
     std::size_t other_edges = 0;  ///< as near as those that the CPU reports
@@ -106,9 +106,9 @@ void check_kept(const PlacedPair& pair, Kept& kept) {
 class ResidentIntersections : public Resident {
 protected:
     [[nodiscard]] Kept keep(Context& context, IntersectionQuery query) {
-        query.resident = true;
+        query.on_device = true;
         Kept kept;
-        kept.result = ask(context, query, [&](const ResidentSamples& samples) {
+        kept.result = ask(context, query, [&](const SamplesOnDevice& samples) {
             kept.resident = samples;
             kept.contents = contents_of(samples);
         });
@@ -217,18 +217,18 @@ TEST_F(ResidentIntersections, WhatComesBackAndWhatStaysAreAskedForApart) {
             IntersectionQuery query = pair.intersection(kind);
             query.tolerance = 0.02;
             const Kept all = keep(context(), query);
-            query.records = false;
+            query.summary_only = true;
             Kept none_back = keep(context(), query);
             EXPECT_TRUE(none_back.result.samples.empty());
             EXPECT_EQ(none_back.contents.samples.size(), all.result.samples.size());
             none_back.result.samples = all.result.samples;
             check_kept(pair, none_back);
-            query.resident_samples = false;
+            query.samples_on_device = false;
             const Kept summary = keep(context(), query);
             EXPECT_GT(summary.result.count, 0U);
             EXPECT_EQ(summary.resident.capacity, 0U);
             check_kept_summary(summary);
-            query.records = true;
+            query.summary_only = false;
             const Kept summary_stays = keep(context(), query);
             EXPECT_EQ(summary_stays.result.samples.size(), all.result.samples.size());
             check_kept_summary(summary_stays);
@@ -269,7 +269,7 @@ TEST_F(ResidentIntersections, OfManyQueriesInFlightEachHasItsOwn) {
                 IntersectionQuery query = pair->intersection(kind);
                 query.tolerance = 0.01;
                 query.b.pose.translation.x += 0.02 * number;
-                query.resident = true;
+                query.on_device = true;
                 batch.add(query);
             }
         }
@@ -313,7 +313,7 @@ TEST_F(ResidentIntersections, RecordedIntoAHostsCommandsTheyAreTheSame) {
         for (const IntersectionKind kind : kinds_of_samples) {
             IntersectionQuery query = pair.intersection(kind);
             query.tolerance = 0.01;
-            query.resident = true;
+            query.on_device = true;
             Batch batch;
             const auto handle = batch.add(query);
             const VkCommandBuffer commands = host.begin(number);
@@ -340,12 +340,12 @@ TEST_F(ResidentIntersections, RefusesByName) {
     IntersectionQuery query{{square, {}}, {square, {}}, 0.1};
     Batch batch;
     const auto not_resident = batch.add(query);
-    query.resident = true;
+    query.on_device = true;
     query.technique = Technique::cpu;
     const auto of_cpu = batch.add(query);
     query.technique = Technique::compute;
     query.tolerance = 0.00001;
-    query.records = false;
+    query.summary_only = true;
     const auto of_huge = batch.add(query);
     const Expected<Ticket> ticket = context().submit(batch);
     ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
@@ -358,7 +358,7 @@ TEST_F(ResidentIntersections, RefusesByName) {
     };
     expect(not_resident, StatusCode::invalid_query, "did not ask");
     expect(of_cpu, StatusCode::invalid_query, "technique cpu");
-    expect(of_huge, StatusCode::too_large, "resident_samples");
+    expect(of_huge, StatusCode::too_large, "samples_on_device");
     Results results;
     ASSERT_TRUE(context().collect(*ticket, results).ok());
     EXPECT_EQ(results[of_huge].status.code(), StatusCode::too_large);

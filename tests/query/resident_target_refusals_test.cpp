@@ -39,13 +39,13 @@ protected:
         query.b = {shape_, {}};
         query.tolerance = 0.05;
         query.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
-        query.resident = true;
+        query.on_device = true;
         return query;
     }
     [[nodiscard]] PenetrationQuery depths() const {
         PenetrationQuery query{{shape_, {{0.3, 0.0}, 0.1}}, {shape_, {}}, 0.01};
         query.technique = Technique::raster;
-        query.resident = true;
+        query.on_device = true;
         return query;
     }
 
@@ -54,9 +54,8 @@ protected:
         EXPECT_NE(status.message().find(words), std::string::npos)
             << words << " is not in: " << status.message();
     }
-    void refuse_image(const std::string& words,
-                      const std::function<void(ResidentImageTarget&)>& spoil) {
-        ResidentFieldTarget target{image_, {}};
+    void refuse_image(const std::string& words, const std::function<void(ImageTarget&)>& spoil) {
+        FieldTarget target{image_, {}};
         spoil(target.signed_distance);
         DistanceFieldQuery query = field();
         query.target = &target;
@@ -64,9 +63,8 @@ protected:
         expect(status, words);
         expect(status, "the target's image for the signed distance");
     }
-    void refuse_buffer(const std::string& words,
-                       const std::function<void(ResidentBufferTarget&)>& spoil) {
-        ResidentBufferTarget target = buffer_;
+    void refuse_buffer(const std::string& words, const std::function<void(BufferTarget&)>& spoil) {
+        BufferTarget target = buffer_;
         spoil(target);
         PenetrationQuery query = depths();
         query.target = &target;
@@ -75,8 +73,8 @@ protected:
         expect(status, "the target's buffer");
     }
 
-    ResidentImageTarget image_;
-    ResidentBufferTarget buffer_;
+    ImageTarget image_;
+    BufferTarget buffer_;
     ShapeHandle shape_;
 
 private:
@@ -84,20 +82,20 @@ private:
 };
 
 TEST_F(TargetRefusals, OfFeaturesThatAreNotToStay) {
-    ResidentFieldTarget target{image_, image_};
+    FieldTarget target{image_, image_};
     target.feature.format = VK_FORMAT_R32_UINT;
     target.feature.layer = 1;
     DistanceFieldQuery query = field();
     query.target = &target;
-    query.resident_features = false;
-    expect(run_alone(context(), query).status, "DistanceFieldQuery::resident_features");
+    query.features_on_device = false;
+    expect(run_alone(context(), query).status, "DistanceFieldQuery::features_on_device");
     target.feature = {};
     const Status status = run_alone(context(), query).status;
     EXPECT_TRUE(status.ok()) << status.text();
 }
 
 TEST_F(TargetRefusals, OfImages) {
-    ResidentFieldTarget good{image_, {}};
+    FieldTarget good{image_, {}};
     DistanceFieldQuery query = field();
     query.target = &good;
     const Status status = run_alone(context(), query).status;
@@ -126,7 +124,7 @@ TEST_F(TargetRefusals, OfImages) {
     refuse_image("accesses before", [](auto& image) { image.before.stages = 0; });
 
     // The other image is named as well.
-    ResidentFieldTarget wrong{{}, image_};
+    FieldTarget wrong{{}, image_};
     query.target = &wrong;
     expect(run_alone(context(), query).status,
            "the target's image for the feature has the format number 100; VK_FORMAT_R32_UINT (98)");
@@ -153,11 +151,11 @@ TEST_F(TargetRefusals, OfBuffers) {
     });
     refuse_buffer("accesses before", [](auto& buffer) { buffer.before.stages = 0; });
 
-    ResidentBufferTarget small = buffer_;
+    BufferTarget small = buffer_;
     small.size = 100;
     ContactQuery contacts{query.a, query.b, query.tolerance, 0.02};
     contacts.technique = Technique::raster;
-    contacts.resident = true;
+    contacts.on_device = true;
     contacts.target = &small;
     expect(run_alone(context(), contacts).status, "the records may take");
     IntersectionQuery overlap{query.a, query.b, query.tolerance};
@@ -165,7 +163,7 @@ TEST_F(TargetRefusals, OfBuffers) {
     overlap.resident = true;
     overlap.target = &small;
     expect(run_alone(context(), overlap).status, "the samples may take");
-    overlap.resident_samples = false;  // the summary has room
+    overlap.samples_on_device = false;  // the summary has room
     EXPECT_TRUE(run_alone(context(), overlap).status.ok());
 }
 
@@ -173,12 +171,12 @@ TEST_F(TargetRefusals, RoomIsForTheRecordsOfBothBoundaries) {
     const PenetrationQuery query = depths();
     ContactQuery contacts{query.a, query.b, query.tolerance, 0.02};
     contacts.technique = Technique::raster;
-    contacts.resident = true;
+    contacts.on_device = true;
     Batch batch;
     const auto handle = batch.add(contacts);
-    const auto layout = context().resident_layout(batch, handle);
+    const auto layout = context().layout_on_device(batch, handle);
     ASSERT_TRUE(layout.has_value()) << layout.error().text();
-    ResidentBufferTarget exact = buffer_;
+    BufferTarget exact = buffer_;
     exact.size = layout->front().size;
     ASSERT_LE(exact.size, buffer_.size);
     contacts.target = &exact;
@@ -188,14 +186,14 @@ TEST_F(TargetRefusals, RoomIsForTheRecordsOfBothBoundaries) {
 }
 
 TEST_F(TargetRefusals, ATooSmallBufferIsAnErrorOfItsQueryAlone) {
-    ResidentBufferTarget small = buffer_;
+    BufferTarget small = buffer_;
     small.size = 100;
     PenetrationQuery query = depths();
     const PenetrationResult alone = run_alone(context(), query);
     query.target = &small;
     ContactQuery contacts{query.a, query.b, query.tolerance, 0.02};
     contacts.technique = Technique::raster;
-    contacts.resident = true;
+    contacts.on_device = true;
     contacts.target = &small;
     Batch batch;
     const auto refused = batch.add(query);
@@ -212,13 +210,13 @@ TEST_F(TargetRefusals, ATooSmallBufferIsAnErrorOfItsQueryAlone) {
 }
 
 TEST_F(TargetRefusals, OnePlaceTakesOneResult) {
-    const ResidentFieldTarget target{image_, {}};
+    const FieldTarget target{image_, {}};
     DistanceFieldQuery query = field();
     query.target = &target;
     PenetrationQuery first = depths();
-    ResidentBufferTarget low = buffer_;
-    ResidentBufferTarget overlapping = buffer_;
-    ResidentBufferTarget high = buffer_;
+    BufferTarget low = buffer_;
+    BufferTarget overlapping = buffer_;
+    BufferTarget high = buffer_;
     overlapping.offset = buffer_.size - 1024;
     high.offset = buffer_.size;
     Batch batch;
@@ -240,10 +238,10 @@ TEST_F(TargetRefusals, OnePlaceTakesOneResult) {
 }
 
 TEST_F(TargetRefusals, ATargetIsIgnoredIfNothingStays) {
-    ResidentBufferTarget bad;
+    BufferTarget bad;
     PenetrationQuery query = depths();
     query.target = &bad;
-    query.resident = false;
+    query.on_device = false;
     EXPECT_TRUE(run_alone(context(), query).status.ok());
 }
 

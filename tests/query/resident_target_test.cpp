@@ -59,13 +59,13 @@ protected:
 
     /// The words of both images, nearfield's own.
     struct FieldWords {
-        ResidentField field;
+        FieldOnDevice field;
         std::vector<std::uint32_t> signed_distance;
         std::vector<std::uint32_t> feature;
     };
     FieldWords own_words(const DistanceFieldQuery& query) {
         FieldWords words;
-        (void)ask(made(), query, [&](const ResidentField& field) {
+        (void)ask(made(), query, [&](const FieldOnDevice& field) {
             words.field = field;
             const VkExtent2D extent{field.width, field.height};
             words.signed_distance = gpu().read(field.signed_distance, extent, field.state);
@@ -88,7 +88,7 @@ protected:
             words.output = gpu().read(output.buffer, output.offset, output.size, output.state);
             words.output.resize(8 + std::min(words.output[0], output.capacity) * words_of_record);
             words.header = gpu().read(output.header.buffer, output.header.offset,
-                                      sizeof(ResidentHeaderData), output.state);
+                                      sizeof(HeaderData), output.state);
         });
         return words;
     }
@@ -130,7 +130,7 @@ TEST_F(ResidentTarget, FieldsEqualThoseInOwnImages) {
             const VkExtent2D extent{own.field.width + 5, own.field.height + 3};
             const HostImage distance(gpu(), VK_FORMAT_R32_SFLOAT, extent);
             const HostImage feature(gpu(), VK_FORMAT_R32_UINT, extent);
-            ResidentFieldTarget target{distance.target(), feature.target()};
+            FieldTarget target{distance.target(), feature.target()};
             query.target = &target;
             Batch batch;
             const auto handle = batch.add(query);
@@ -167,12 +167,12 @@ TEST_F(ResidentTarget, OneImageMayBeTheHosts) {
     for (const bool of_feature : {false, true}) {
         const HostImage image(gpu(), of_feature ? VK_FORMAT_R32_UINT : VK_FORMAT_R32_SFLOAT,
                               extent);
-        ResidentFieldTarget target;
+        FieldTarget target;
         (of_feature ? target.feature : target.signed_distance) = image.target();
         query.target = &target;
         Batch batch;
         const auto handle = batch.add(query);
-        ResidentField field;
+        FieldOnDevice field;
         (void)record(
             batch, [&](VkCommandBuffer commands) { image.fill(commands); },
             [&](VkCommandBuffer commands, Ticket ticket) {
@@ -182,7 +182,7 @@ TEST_F(ResidentTarget, OneImageMayBeTheHosts) {
         EXPECT_GE(field.image_extent.width, field.width);
         expect_cells(image, extent, of_feature ? own.feature : own.signed_distance, extent.width);
         // The other one is where it always is.
-        const ResidentImage& kept = of_feature ? field.signed_distance : field.feature;
+        const ImageOnDevice& kept = of_feature ? field.signed_distance : field.feature;
         EXPECT_EQ(gpu().read(kept, extent, field.state),
                   of_feature ? own.signed_distance : own.feature);
     }
@@ -197,8 +197,8 @@ void ResidentTarget::expect_same_in_buffer(const Query& asked, std::size_t words
     query.target = &buffer.target();
     Batch batch;
     const auto handle = batch.add(query);
-    ResidentHeader header;
-    ResidentState state;
+    HeaderOnDevice header;
+    OutputState state;
     const Results results = record(
         batch, [&](VkCommandBuffer commands) { buffer.fill(commands); },
         [&](VkCommandBuffer commands, Ticket ticket) {
@@ -213,8 +213,7 @@ void ResidentTarget::expect_same_in_buffer(const Query& asked, std::size_t words
             buffer.use(commands);
         });
     EXPECT_TRUE(results[handle].status.ok()) << results[handle].status.text();
-    EXPECT_EQ(gpu().read(header.buffer, header.offset, sizeof(ResidentHeaderData), state),
-              own.header);
+    EXPECT_EQ(gpu().read(header.buffer, header.offset, sizeof(HeaderData), state), own.header);
     // Exactly the range is written, as far as there are records.
     const std::vector<std::uint32_t> words = buffer.words();
     const std::size_t first = buffer.target().offset / sizeof(std::uint32_t);
@@ -234,7 +233,7 @@ TEST_F(ResidentTarget, RecordsAndSamplesEqualThoseInTheOwnBuffer) {
         ContactQuery contacts = pair.contacts(0.05);
         IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
         IntersectionQuery edges = pair.intersection(IntersectionKind::boundary_volume);
-        depths.resident = contacts.resident = overlap.resident = edges.resident = true;
+        depths.resident = contacts.on_device = overlap.resident = edges.resident = true;
         expect_same_in_buffer(depths, sizeof(RecordData) / 4);
         expect_same_in_buffer(contacts, sizeof(RecordData) / 4);
         expect_same_in_buffer(overlap, sizeof(IntersectionSampleData) / 4);
@@ -249,7 +248,7 @@ TEST_F(ResidentTarget, WhatIsWrittenOutlivesTheBatch) {
     constexpr VkImageUsageFlags usage =
         VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     // As a host that samples them: the states are the default ones. Batches in flight take turns.
-    std::array<ResidentFieldTarget, 3> targets;
+    std::array<FieldTarget, 3> targets;
     std::array<FieldWords, 3> own;
     for (std::size_t i = 0; i < targets.size(); ++i) {
         query.b.pose.angle = 0.1 * static_cast<double>(i);
@@ -283,12 +282,11 @@ TEST_F(ResidentTarget, WhatIsWrittenOutlivesTheBatch) {
     for (const Ticket ticket : tickets) {
         ASSERT_TRUE(made().collect(ticket, results).ok());
     }
-    const ResidentState state{read_by_shaders.stages, read_by_shaders.access,
-                              read_by_shaders.layout};
+    const OutputState state{read_by_shaders.stages, read_by_shaders.access, read_by_shaders.layout};
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const VkExtent2D extent = targets[i].feature.extent;
-        const auto read = [&](const ResidentImageTarget& target) {
-            return gpu().read(ResidentImage{target.image, VK_NULL_HANDLE, target.format}, extent,
+        const auto read = [&](const ImageTarget& target) {
+            return gpu().read(ImageOnDevice{target.image, VK_NULL_HANDLE, target.format}, extent,
                               state);
         };
         EXPECT_EQ(read(targets[i].signed_distance), own[i].signed_distance);

@@ -20,7 +20,7 @@ bool same_place(const oracle::ShapeOracle& shape, const Feature& a, const Featur
     return distance_between(place(a), place(b)) <= allowed;
 }
 
-void check_field(const PlacedPair& pair, const ResidentField& field, const FieldContents& contents,
+void check_field(const PlacedPair& pair, const FieldOnDevice& field, const FieldContents& contents,
                  const DistanceFieldResult& result) {
     ASSERT_TRUE(result.status.ok()) << result.status.text();
     ASSERT_EQ(field.width, result.width);
@@ -68,7 +68,7 @@ DistanceFieldQuery field_of(const PlacedPair& pair, Technique technique) {
     query.rectangle = Rectangle{{low.x - 7.3 * cell, low.y - 7.3 * cell},
                                 {low.x - 7.3 * cell + width, low.y - 7.3 * cell + height}};
     query.features = true;
-    query.resident = true;
+    query.on_device = true;
     return query;
 }
 

@@ -43,9 +43,9 @@ protected:
         return results.results.empty() ? typename Query::Result() : results[handle];
     }
 
-    FieldContents contents_of(const ResidentField& field) { return reader().read(field); }
-    RecordsContents contents_of(const ResidentRecords& records) { return reader().read(records); }
-    SamplesContents contents_of(const ResidentSamples& samples) { return reader().read(samples); }
+    FieldContents contents_of(const FieldOnDevice& field) { return reader().read(field); }
+    RecordsContents contents_of(const PointsOnDevice& records) { return reader().read(records); }
+    SamplesContents contents_of(const SamplesOnDevice& samples) { return reader().read(samples); }
 
 private:
     std::unique_ptr<ResidentReader> reader_;
@@ -60,7 +60,7 @@ private:
 /// A field of part of the pair's B with both sides; it stays on the device.
 [[nodiscard]] DistanceFieldQuery field_of(const PlacedPair& pair, Technique technique);
 /// The resident output must equal the result that was read back.
-void check_field(const PlacedPair& pair, const ResidentField& field, const FieldContents& contents,
+void check_field(const PlacedPair& pair, const FieldOnDevice& field, const FieldContents& contents,
                  const DistanceFieldResult& result);
 
 }  // namespace nearfield::test

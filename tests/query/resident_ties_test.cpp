@@ -39,10 +39,10 @@ class ResidentTies : public Resident {
 protected:
     template <class Query>
     void expect_the_first(Query query) {
-        query.resident = true;
+        query.on_device = true;
         RecordsContents contents;
         ask(context(), query,
-            [&](const ResidentRecords& records) { contents = contents_of(records); });
+            [&](const PointsOnDevice& records) { contents = contents_of(records); });
         const Deepest deepest = deepest_of(contents);
         // Or this would test nothing.
         EXPECT_GT(deepest.count, points_per_block);

@@ -310,7 +310,7 @@ void ResidentView::record(VkCommandBuffer commands, const Subject& subject,
     const VkDeviceSize first_sample = overlap.offset + sizeof(IntersectionSummaryData);
     gpu_.vkCmdBindVertexBuffers(commands, 0, 1, &overlap.buffer, &first_sample);
     gpu_.vkCmdDrawIndirect(commands, overlap.header.buffer,
-                           overlap.header.offset + offsetof(ResidentHeaderData, quads), 1,
+                           overlap.header.offset + offsetof(HeaderData, quads), 1,
                            sizeof(VkDrawIndirectCommand));
     draw(arrows_pipeline_, 9, contacts.capacity);
     gpu_.vkCmdEndRenderPass(commands);

@@ -39,9 +39,9 @@ public:
     };
     /// The outputs to draw.
     struct Subject {
-        ResidentField field;
-        ResidentRecords contacts;
-        ResidentSamples overlap;
+        FieldOnDevice field;
+        PointsOnDevice contacts;
+        SamplesOnDevice overlap;
     };
     [[nodiscard]] Picture draw(const Subject& subject, const Shot& shot);
 

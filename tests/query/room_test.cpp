@@ -297,14 +297,14 @@ TEST_F(Room, OfResidentRecords) {
         run([&](Context& context) {
             auto query = square_inside<PenetrationQuery>(context);
             query.technique = technique;
-            query.resident = true;
+            query.on_device = true;
             return query;
         });
         run([&](Context& context) {
             auto query = square_inside<ContactQuery>(context);
             query.contact_distance = 2.0;  // of both boundaries
             query.technique = technique;
-            query.resident = true;
+            query.on_device = true;
             return query;
         });
     }
@@ -318,8 +318,8 @@ TEST_F(Room, OfResidentSamples) {
             SCOPED_TRACE(stored);
             run([&](Context& context) {
                 IntersectionQuery query = squares(context, technique);
-                query.resident = true;
-                query.resident_samples = stored;
+                query.on_device = true;
+                query.samples_on_device = stored;
                 return query;
             });
         }

@@ -36,7 +36,7 @@ TEST_F(SteadyStateOfWorlds, DevicePairsOfMovingInstancesAllocateAndCreateNothing
         }
         ok = world->update(table).ok() && ok;
         for (const auto& row : table.rows()) {
-            read += table.records(row).size();
+            read += table.points(row).size();
         }
         rows = table.size();
         ok = world->update(intersections).ok() && ok;
@@ -45,7 +45,7 @@ TEST_F(SteadyStateOfWorlds, DevicePairsOfMovingInstancesAllocateAndCreateNothing
         }
         ok = world->submit(contacts).ok() && contacts.collect().ok() && ok;
         for (const auto& row : contacts.rows()) {
-            read += contacts.records(row).size() + contacts.manifold(row).size();
+            read += contacts.points(row).size() + contacts.manifold(row).size();
         }
         return ok && table.read_status().ok() && contacts.read_status().ok();
     });
@@ -112,13 +112,13 @@ TEST_F(SteadyStateOfWorlds, DevicePairsAtPosesOfTheHostAllocateAndCreateNothing)
     poses.buffer = buffer.buffer;
     poses.size = bytes;
     poses.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    PairTable<PenetrationQuery> table({.tolerance = 0.08, .resident = true}, on_device);
+    PairTable<PenetrationQuery> table({.tolerance = 0.08, .on_device = true}, on_device);
     std::size_t read = 0;
     expect_nothing_made(200, [&](int) {
         bool ok =
             world->submit(table, at_poses(poses)).ok() && table.resident() && table.collect().ok();
         for (const auto& row : table.rows()) {
-            read += table.records(row).size();
+            read += table.points(row).size();
         }
         return ok && table.read_status().ok();
     });

@@ -20,7 +20,7 @@ Batch resident_batch(ShapeHandle a, ShapeHandle b) {
     field.b = {b, {{5.7, 5.1}, 0.3}};
     field.tolerance = 0.1;
     field.rectangle = Rectangle{{4.0, 4.0}, {6.0, 6.0}};
-    field.resident = true;
+    field.on_device = true;
     for (const Technique technique : {Technique::raster, Technique::compute}) {
         field.technique = technique;
         batch.add(field);
@@ -142,8 +142,8 @@ struct TakenInTurns {
         }
     }
 
-    std::array<ResidentFieldTarget, 3> images;
-    std::array<ResidentBufferTarget, 3> buffers;
+    std::array<FieldTarget, 3> images;
+    std::array<BufferTarget, 3> buffers;
 };
 
 TEST_F(SteadyState, TargetsThatTakeTurnsAllocateAndCreateNothing) {

@@ -62,8 +62,8 @@ Context* Strategies::context_ = nullptr;
 Rectangle box_of(const std::vector<IntersectionSample>& samples) {
     Rectangle box{samples.front().point, samples.front().point};
     for (const IntersectionSample& sample : samples) {
-        box.min = {std::min(box.min.x, sample.point.x), std::min(box.min.y, sample.point.y)};
-        box.max = {std::max(box.max.x, sample.point.x), std::max(box.max.y, sample.point.y)};
+        box.min = {std::min(box.min.x, sample.position.x), std::min(box.min.y, sample.position.y)};
+        box.max = {std::max(box.max.x, sample.position.x), std::max(box.max.y, sample.position.y)};
     }
     return box;
 }
@@ -76,8 +76,8 @@ void expect_same(const std::vector<ReferenceSample>& expected, const Intersectio
     Report report("samples against the scanline");
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const IntersectionSample& sample = result.samples[i];
-        report.require(sample.point == expected[i].point, "sample ", i, " at ", sample.point.x,
-                       ", ", sample.point.y);
+        report.require(sample.position == expected[i].point, "sample ", i, " at ",
+                       sample.position.x, ", ", sample.position.y);
         const bool right_edge = expected[i].edge_count == 0
                                     ? sample.edge == IntersectionSample::no_edge
                                     : sample.edge - expected[i].first_edge < expected[i].edge_count;
@@ -104,7 +104,7 @@ void expect_same_edges(const IntersectionResult& a, const IntersectionResult& b)
 /// The query without its list of samples.
 void expect_same_count(Context& context, IntersectionQuery query,
                        const IntersectionResult& listed) {
-    query.records = false;
+    query.summary_only = true;
     const IntersectionResult counted = run_alone(context, query);
     EXPECT_EQ(counted.count, listed.count);
     EXPECT_EQ(counted.area, listed.area);
@@ -125,7 +125,7 @@ void Strategies::check(const PlacedPair& pair, Context& context, const Settings&
         for (const IntersectionStrategy strategy : every_strategy) {
             SCOPED_TRACE(to_string(strategy));
             query.strategy = strategy;
-            query.records = true;
+            query.summary_only = false;
             const IntersectionResult result = run_alone(context, query);
             EXPECT_EQ(result.strategy, strategy);
             if (!is_available(strategy)) {
@@ -140,7 +140,7 @@ void Strategies::check(const PlacedPair& pair, Context& context, const Settings&
             expect_same_count(context, query, result);
         }
         query.technique = Technique::cpu;
-        query.records = true;
+        query.summary_only = false;
         const IntersectionResult other = run_alone(context, query);
         EXPECT_EQ(other.technique, Technique::cpu);
         expect_same(expected_of_cpu, other);
@@ -238,7 +238,7 @@ TEST_F(Strategies, MixInOneBatch) {
         EXPECT_EQ(result.box.max, alone[i].box.max);
         ASSERT_EQ(result.samples.size(), alone[i].samples.size());
         for (std::size_t j = 0; j < result.samples.size(); ++j) {
-            ASSERT_EQ(result.samples[j].point, alone[i].samples[j].point);
+            ASSERT_EQ(result.samples[j].position, alone[i].samples[j].position);
             ASSERT_EQ(result.samples[j].edge, alone[i].samples[j].edge);
         }
     }
@@ -358,7 +358,7 @@ TEST_F(MissingStrategies, CountingAloneNeedsNoMemoryForCells) {
     const PlacedPair in_small(*small, pair.pair());
     query = in_small.intersection(IntersectionKind::volume_volume);
     EXPECT_EQ(run_alone(*small, query).status.code(), StatusCode::too_large);
-    query.records = false;
+    query.summary_only = true;
     const IntersectionResult result = run_alone(*small, query);
     ASSERT_TRUE(result.status.ok()) << result.status.text();
     EXPECT_NEAR(result.area, 25.0, 20.0 * result.error_bound);

@@ -63,7 +63,7 @@ protected:
             ASSERT_EQ(exact.samples.size(), drawn.samples.size());
             Report report("samples of kind " + std::to_string(static_cast<int>(kind)));
             for (std::size_t i = 0; i < exact.samples.size(); ++i) {
-                report.require(exact.samples[i].point == drawn.samples[i].point &&
+                report.require(exact.samples[i].position == drawn.samples[i].position &&
                                    exact.samples[i].edge == drawn.samples[i].edge,
                                "sample ", i);
             }
@@ -104,18 +104,18 @@ protected:
             EXPECT_EQ(exact.intersects, drawn.intersects);
             const double d = cpu.tolerance();
             match(
-                exact.records, drawn.records,
-                [&](const PenetrationRecord& i, const PenetrationRecord& j) {
+                exact.points, drawn.points,
+                [&](const PenetratingPoint& i, const PenetratingPoint& j) {
                     EXPECT_LE(std::abs(i.depth - j.depth), 1e-3 * d);
                 },
-                [&](const PenetrationRecord& touching) {
+                [&](const PenetratingPoint& touching) {
                     EXPECT_LE(touching.depth, 1e-3 * d)
                         << touching.point.x << ", " << touching.point.y;
                 });
 
-            query.records = false;
+            query.summary_only = true;
             const PenetrationResult summary = run_alone(context(), query);
-            EXPECT_TRUE(summary.records.empty());
+            EXPECT_TRUE(summary.points.empty());
             EXPECT_EQ(summary.count, exact.count);
             EXPECT_EQ(summary.intersects, exact.intersects);
             EXPECT_EQ(summary.deepest.depth, exact.deepest.depth);
@@ -132,20 +132,20 @@ protected:
         const ContactResult drawn = run_alone(context(), device.contacts(near));
         for (const Side side : {Side::a, Side::b}) {
             const auto of_side = [side](const ContactResult& result) {
-                std::vector<ContactRecord> records;
-                std::copy_if(result.records.begin(), result.records.end(),
+                std::vector<ContactPoint> records;
+                std::copy_if(result.points.begin(), result.points.end(),
                              std::back_inserter(records),
-                             [side](const ContactRecord& record) { return record.on == side; });
+                             [side](const ContactPoint& record) { return record.on == side; });
                 return records;
             };
             match(
                 of_side(exact), of_side(drawn),
-                [&](const ContactRecord& i, const ContactRecord& j) {
+                [&](const ContactPoint& i, const ContactPoint& j) {
                     EXPECT_LE(std::abs(i.distance - j.distance), 1e-3 * d);
                     EXPECT_TRUE(i.inside == j.inside || i.distance <= 1e-3 * d)
                         << i.point.x << ", " << i.point.y << " at " << i.distance;
                 },
-                [&](const ContactRecord& on_the_limit) {
+                [&](const ContactPoint& on_the_limit) {
                     EXPECT_GE(on_the_limit.distance, near - 1e-3 * d);
                 });
         }
@@ -232,16 +232,16 @@ TEST_F(Techniques, AgreeOnMorePointsThanAreLocatedAtOnce) {
     const Pair pair{pentagons, pentagons, {}, {}, 0.009};
     const PlacedPair cpu(context(), pair, Technique::cpu);
     const ContactResult exact = run_alone(context(), cpu.contacts(1e-3));
-    EXPECT_GT(exact.records.size(), 140000U);
+    EXPECT_GT(exact.points.size(), 140000U);
     for (const Technique technique : {Technique::raster, Technique::compute}) {
         SCOPED_TRACE(to_string(technique));
         const PlacedPair device(context(), pair, technique);
         const ContactResult found = run_alone(context(), device.contacts(1e-3));
-        ASSERT_EQ(found.records.size(), exact.records.size());
+        ASSERT_EQ(found.points.size(), exact.points.size());
         Report report("contacts");
-        for (std::size_t i = 0; i < exact.records.size(); ++i) {
-            report.require(found.records[i].distance == exact.records[i].distance &&
-                               found.records[i].point == exact.records[i].point,
+        for (std::size_t i = 0; i < exact.points.size(); ++i) {
+            report.require(found.points[i].distance == exact.points[i].distance &&
+                               found.points[i].position == exact.points[i].position,
                            "contact ", i);
         }
     }
@@ -309,17 +309,17 @@ TEST_F(Techniques, AgreeOnNormalsByGradient) {
     const ContactResult exact = run_alone(context(), query);
     EXPECT_EQ(exact.technique, Technique::cpu);
     ASSERT_TRUE(exact.status.ok()) << exact.status.text();
-    ASSERT_GT(exact.records.size(), 10U);
+    ASSERT_GT(exact.points.size(), 10U);
     int compared = 0;
     match(
-        exact.records, drawn.records,
-        [&](const ContactRecord& i, const ContactRecord& j) {
+        exact.points, drawn.points,
+        [&](const ContactPoint& i, const ContactPoint& j) {
             // Only where the differences are meaningful: each component has an error of up to 0.31
             // of a cell's side on the device (docs/error_budget.md), and almost none on the CPU.
             EXPECT_GT(oracle::dot(i.normal, j.normal), 0.5);
             ++compared;
         },
-        [](const ContactRecord&) {});
+        [](const ContactPoint&) {});
     EXPECT_GT(compared, 10);
 }
 

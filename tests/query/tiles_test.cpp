@@ -89,14 +89,15 @@ TEST_F(Tiles, HoldWhatTheyWereMadeFor) {
             }));
             // By compute, the device searches for points without tiles.
             const bool have_tiles = technique == Technique::raster;
-            for (const PenetrationRecord& record : results[penetration].records) {
-                EXPECT_EQ(any_holds(tiles, penetration.index, Side::a, record.point), have_tiles);
+            for (const PenetratingPoint& record : results[penetration].records) {
+                EXPECT_EQ(any_holds(tiles, penetration.index, Side::a, record.position),
+                          have_tiles);
             }
-            for (const ContactRecord& record : results[contacts].records) {
-                EXPECT_EQ(any_holds(tiles, contacts.index, record.on, record.point), have_tiles);
+            for (const ContactPoint& record : results[contacts].records) {
+                EXPECT_EQ(any_holds(tiles, contacts.index, record.on, record.position), have_tiles);
             }
             for (const IntersectionSample& sample : results[samples].samples) {
-                EXPECT_TRUE(any_holds(tiles, samples.index, Side::a, sample.point));
+                EXPECT_TRUE(any_holds(tiles, samples.index, Side::a, sample.position));
             }
             records += results[penetration].records.size() + results[contacts].records.size();
         }

@@ -39,16 +39,16 @@ protected:
                 const PenetrationResult result = penetration(points, technique);
                 EXPECT_TRUE(result.intersects);
                 EXPECT_EQ(result.count > 0, penetrates);
-                EXPECT_EQ(result.count, result.records.size());
+                EXPECT_EQ(result.count, result.points.size());
             }
             const ContactResult found = contacts(technique);
             EXPECT_TRUE(found.intersects);
             EXPECT_GT(found.count, 0U);
-            const auto inside = std::count_if(found.records.begin(), found.records.end(),
+            const auto inside = std::count_if(found.points.begin(), found.points.end(),
                                               [](const auto& record) { return record.inside; });
             EXPECT_EQ(inside > 0, penetrates);
-            for (const ContactRecord& record : found.records) {
-                if (record.on == Side::a && record.point.x == depth) {
+            for (const ContactPoint& record : found.points) {
+                if (record.on == Side::a && record.position.x == depth) {
                     EXPECT_EQ(record.normal.x, -1.0) << "the normal has the side of the point";
                 }
             }

@@ -171,8 +171,8 @@ void show_to_host(const HostGpu& gpu, VkCommandBuffer commands) {
 
 }  // namespace
 
-std::vector<std::uint32_t> HostGpu::read(const ResidentImage& image, VkExtent2D extent,
-                                         const ResidentState& state) {
+std::vector<std::uint32_t> HostGpu::read(const ImageOnDevice& image, VkExtent2D extent,
+                                         const OutputState& state) {
     const std::uint64_t bytes = std::uint64_t{4} * extent.width * extent.height;
     const Buffer target = make_buffer(bytes);
     submit([&](VkCommandBuffer commands) {
@@ -203,7 +203,7 @@ std::vector<std::uint32_t> HostGpu::read(const ResidentImage& image, VkExtent2D 
 }
 
 std::vector<std::uint32_t> HostGpu::read(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
-                                         const ResidentState& state) {
+                                         const OutputState& state) {
     const Buffer target = make_buffer(size);
     submit([&](VkCommandBuffer commands) {
         VkMemoryBarrier barrier{};

@@ -105,10 +105,10 @@ public:
 
     /// The contents of a resident image or buffer: copies it in the queue, with the barriers that a
     /// host needs for a use other than the declared one.
-    [[nodiscard]] std::vector<std::uint32_t> read(const ResidentImage& image, VkExtent2D extent,
-                                                  const ResidentState& state);
+    [[nodiscard]] std::vector<std::uint32_t> read(const ImageOnDevice& image, VkExtent2D extent,
+                                                  const OutputState& state);
     [[nodiscard]] std::vector<std::uint32_t> read(VkBuffer buffer, VkDeviceSize offset,
-                                                  VkDeviceSize size, const ResidentState& state);
+                                                  VkDeviceSize size, const OutputState& state);
 
     [[nodiscard]] VkDevice device() const { return host_.device; }
 

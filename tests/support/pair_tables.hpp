@@ -39,7 +39,7 @@ template <class Query>
     if (!row.has_value()) {
         return {};
     }
-    const auto records = table.records(*row);
+    const auto records = table.points(*row);
     EXPECT_TRUE(table.read_status().ok()) << table.read_status().text();
     EXPECT_EQ(records.size(), row->record_count);
     return {records.begin(), records.end()};

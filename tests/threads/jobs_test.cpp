@@ -84,7 +84,7 @@ private:
         instances_.push_back({shape.has_value() ? *shape : ShapeHandle{}, pose});
     }
     void fill() {
-        const auto pairs = context_->find_pairs(instances_, 0.0);
+        const auto pairs = context_->find_overlapping_boxes(instances_, 0.0);
         ASSERT_TRUE(pairs.has_value()) << pairs.error().text();
         EXPECT_GT(pairs->size(), 60U);
         for (const InstancePair& pair : *pairs) {
@@ -175,7 +175,7 @@ std::uint32_t jobs_for(double samples, std::uint64_t memory) {
     for (int i = 0; i < 4; ++i) {
         const Instance b{*shape, {{0.1 + 0.2 * i, 0.5}, 0.0}};
         PenetrationQuery query{{*shape, {}}, b, 4.0 / samples};
-        query.records = false;
+        query.summary_only = true;
         query.technique = Technique::cpu;
         batch.add(query);
     }

@@ -35,7 +35,7 @@ public:
         b_ = *b;
         Ticket former;
         for (int frame = 0; frame < frames && error_.empty(); ++frame) {
-            find_pairs(frame);
+            find_overlapping_boxes(frame);
             const Ticket ticket = submit(frame);
             collect(former);
             former = ticket;
@@ -66,9 +66,9 @@ private:
             error_ = status.text();
         }
     }
-    void find_pairs(int frame) {
+    void find_overlapping_boxes(int frame) {
         const Instance instances[] = {{a_, {}}, {b_, {{0.5 * frame, 0.0}, 0.0}}};
-        const auto pairs = context_.find_pairs(instances, 0.1);
+        const auto pairs = context_.find_overlapping_boxes(instances, 0.1);
         expect(pairs.error());
         numbers_.push_back(pairs ? static_cast<double>(pairs->size()) : -1.0);
     }

@@ -232,7 +232,7 @@ void Answers::ask_pairs(World& world, std::span<const InstanceHandle> instances)
     }
     PairTable penetrations(
         PenetrationQuery{
-            .tolerance = 0.05, .points = PenetrationPoints::vertices, .records = false},
+            .tolerance = 0.05, .points = PenetrationPoints::vertices, .summary_only = true},
         of_list);
     if (note(world.update(penetrations, {.a = a, .b = b}), "penetrations of a list")) {
         for (const PairRow<PenetrationQuery>& row : penetrations.rows()) {
@@ -240,7 +240,7 @@ void Answers::ask_pairs(World& world, std::span<const InstanceHandle> instances)
             add(row.intersects ? 1.0 : 0.0);
             add(static_cast<double>(row.count));
             add(row.deepest.depth);
-            add(row.deepest.point);
+            add(row.deepest.position);
             add(row.deepest.nearest);
         }
     }

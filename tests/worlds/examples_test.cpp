@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace nearfield::test {
@@ -23,8 +24,8 @@ protected:
     void draw(InstanceHandle instance) { drawn.push_back(instance); }
 
     // NOLINTBEGIN(readability-identifier-naming): as a caller writes them.
-    Context context = std::move(*Context::create_cpu());
-    World world = std::move(*World::create(context));
+    Context context;
+    World world{context};
     ShapeHandle box;
     ShapeHandle robot;
     InstanceHandle handle_of_robot;
@@ -55,6 +56,37 @@ TEST_F(WorldExamples, CompileAndRun) {
     EXPECT_EQ(drawn.size(), 1U);
     EXPECT_EQ(near.front().distance, 1.0);
     EXPECT_EQ(blocked, (std::vector<std::uint8_t>{1, 1}));
+}
+#pragma GCC diagnostic pop
+
+/// What the examples of the queries name: an arrow in a U-shaped channel, or far to its left.
+class QueryExamples : public testing::Test {
+protected:
+    void push(Vector2 /*position*/, Vector2 /*direction*/, double depth) {
+        deepest = std::max(deepest, depth);
+    }
+    void solve(Vector2 /*normal*/, const ContactPoint& /*extreme*/) { ++solved; }
+
+    // NOLINTBEGIN(readability-identifier-naming): as a caller writes them.
+    Context context;
+    AddedShape arrow =
+        context.add_shape(Rings{{{0, -1}, {4, -1}, {4, -2}, {7, 0}, {4, 2}, {4, 1}, {0, 1}}});
+    AddedShape channel = context.add_shape(
+        Rings{{{0, -5}, {10, -5}, {10, 5}, {0, 5}, {0, 3}, {8, 3}, {8, -3}, {0, -3}}});
+    AddedShape sheet = context.add_shape(rectangle({-20.0, -20.0}, {20.0, 20.0}));
+    Pose pose{{1.5, 0.5}, 0.0};
+    Pose far{{-9.0, 0.0}, 0.0};
+    double deepest = 0.0;
+    int solved = 0;
+    // NOLINTEND(readability-identifier-naming)
+};
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-variable"
+TEST_F(QueryExamples, CompileAndRun) {
+#include <examples/query.hpp>
+    EXPECT_EQ(deepest, 0.5);
+    EXPECT_GT(solved, 0);
 }
 #pragma GCC diagnostic pop
 

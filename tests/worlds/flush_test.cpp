@@ -72,7 +72,7 @@ public:
             instances.push_back(scene_.instance(i));
         }
         Pairs found;
-        const auto pairs = scene_.context().find_pairs(instances, 0.0);
+        const auto pairs = scene_.context().find_overlapping_boxes(instances, 0.0);
         EXPECT_TRUE(pairs.has_value());
         for (const InstancePair& pair : *pairs) {
             found.emplace(pair.first, pair.second);

@@ -102,7 +102,7 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
         const PairRow<PenetrationQuery>& row = rows[i];
         EXPECT_EQ(row.a, a[i]);
         EXPECT_EQ(row.b, b[i]);
-        EXPECT_EQ(row.record_count, result.records.size());
+        EXPECT_EQ(row.record_count, result.points.size());
         EXPECT_EQ(row.status, result.status.code()) << result.status.text();
         if (row.status != StatusCode::ok) {
             continue;
@@ -111,8 +111,8 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
         EXPECT_EQ(row.error_bound, result.error_bound);
         EXPECT_EQ(row.count, result.count);
         EXPECT_EQ(row.deepest.depth, result.deepest.depth);
-        EXPECT_EQ(row.deepest.point.x, result.deepest.point.x);
-        EXPECT_EQ(row.deepest.point.y, result.deepest.point.y);
+        EXPECT_EQ(row.deepest.position.x, result.deepest.position.x);
+        EXPECT_EQ(row.deepest.position.y, result.deepest.position.y);
         EXPECT_EQ(row.deepest.nearest.x, result.deepest.nearest.x);
         EXPECT_EQ(row.deepest.nearest.y, result.deepest.nearest.y);
         EXPECT_EQ(row.deepest.direction.x, result.deepest.direction.x);
@@ -120,11 +120,11 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
         EXPECT_EQ(row.deepest.feature.kind, result.deepest.feature.kind);
         EXPECT_EQ(row.deepest.feature.index, result.deepest.feature.index);
         EXPECT_EQ(row.deepest.unique, result.deepest.unique);
-        const auto records = table.records(row);
-        ASSERT_EQ(records.size(), result.records.size());
+        const auto records = table.points(row);
+        ASSERT_EQ(records.size(), result.points.size());
         for (std::size_t k = 0; k < records.size(); ++k) {
-            EXPECT_EQ(records[k].point, result.records[k].point);
-            EXPECT_EQ(records[k].depth, result.records[k].depth);
+            EXPECT_EQ(records[k].position, result.points[k].position);
+            EXPECT_EQ(records[k].depth, result.points[k].depth);
         }
     }
     PairTable hits(asked, {.hits_only = true, .listed = true});
@@ -137,7 +137,7 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
             EXPECT_EQ(hit.a, row.a);
             EXPECT_EQ(hit.b, row.b);
             EXPECT_EQ(hit.index, next);
-            EXPECT_EQ(hits.records(hit).size(), table.records(row).size());
+            EXPECT_EQ(hits.records(hit).size(), table.points(row).size());
             ++next;
         }
     }
@@ -168,7 +168,7 @@ TEST_P(WorldListedPairs, PenetrateAsInABatch) {
         }
         PenetrationQuery query;
         for (const bool records : {false, true}) {
-            query.records = records;
+            query.summary_only = !records;
             query.tolerance = 0.05;
             query.points = PenetrationPoints::vertices;
             expect_rows_of_batch(scene, Listed(scene), query, a, b);
@@ -244,7 +244,7 @@ TEST_F(WorldListedSquares, StateWhatIsWrongWithAPair) {
     ASSERT_TRUE(scene_.context().remove_shape(scene_.shape(1)).ok());
     const InstanceHandle a[] = {scene_.handle(0), scene_.handle(1), scene_.handle(2)};
     const InstanceHandle b[] = {scene_.handle(1), scene_.handle(2), scene_.handle(2)};
-    PenetrationQuery query{.tolerance = 0.1, .records = false};
+    PenetrationQuery query{.tolerance = 0.1, .summary_only = true};
     for (const PenetrationPoints points :
          {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
         query.points = points;
@@ -278,7 +278,7 @@ TEST_F(WorldListedSquares, AreAskedWhatTableIsAsked) {
     PairTable contacts(ContactQuery{.tolerance = 0.1, .contact_distance = 0.2}, of_list);
     ASSERT_TRUE(scene_.world().update(contacts, {.a = a, .b = b}).ok());
     EXPECT_EQ(contacts.rows()[0].count, 0U);
-    EXPECT_GT(contacts.records(contacts.rows()[2]).size(), 0U);
+    EXPECT_GT(contacts.points(contacts.rows()[2]).size(), 0U);
     EXPECT_GT(contacts.manifold(contacts.rows()[2]).size(), 0U);
     PairTable impacts(TimeOfImpactQuery{.tolerance = 0.1}, of_list);
     EXPECT_EQ(scene_.world().update(impacts, {.a = a, .b = b}).message(),
@@ -306,7 +306,7 @@ TEST_F(WorldListedSquares, AskTheCpu) {
               "update: the table is answered by Technique::cpu, and its query asks for "
               "Technique::compute");
     query.technique = Technique::cpu;
-    query.resident = true;
+    query.on_device = true;
     EXPECT_EQ(refused(query, of_list).find("update: commands of the host, poses that they write"),
               0U);
 }

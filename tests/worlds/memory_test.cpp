@@ -137,7 +137,7 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
             PenetrationQuery query;
             query.tolerance = 0.02;
             query.points = PenetrationPoints::vertices;
-            query.records = false;
+            query.summary_only = true;
             PairTable out(query, of_list);
             return c.scene.world().update(out, {.a = a, .b = b});
         },
@@ -352,7 +352,7 @@ private:
     std::vector<std::uint8_t> intersects_;
     PairTable<IntersectionTestQuery> tests_{IntersectionTestQuery{}, of_list};
     PairTable<PenetrationQuery> vertices_{
-        {.tolerance = 0.02, .points = PenetrationPoints::vertices, .records = false}, of_list};
+        {.tolerance = 0.02, .points = PenetrationPoints::vertices, .summary_only = true}, of_list};
     PairTable<PenetrationQuery> samples_{{.tolerance = 0.02}, of_list};
     PairTable<ContactQuery> contacts_{{.tolerance = 0.02, .contact_distance = 0.05}, of_list};
     std::vector<Clearance> clearances_;

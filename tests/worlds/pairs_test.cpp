@@ -21,15 +21,15 @@ void add(Numbers& to, const Vector2& v) {
 void add(Numbers& to, const Feature& feature) {
     to.insert(to.end(), {static_cast<double>(feature.kind), static_cast<double>(feature.index)});
 }
-void add(Numbers& to, const PenetrationRecord& record) {
-    add(to, record.point);
+void add(Numbers& to, const PenetratingPoint& record) {
+    add(to, record.position);
     add(to, record.direction);
     add(to, record.nearest);
     add(to, record.feature);
     to.insert(to.end(), {record.depth, record.unique ? 1.0 : 0.0});
 }
-void add(Numbers& to, const ContactRecord& record) {
-    add(to, record.point);
+void add(Numbers& to, const ContactPoint& record) {
+    add(to, record.position);
     add(to, record.normal);
     add(to, record.nearest);
     add(to, record.feature);
@@ -37,7 +37,7 @@ void add(Numbers& to, const ContactRecord& record) {
                          record.unique ? 1.0 : 0.0});
 }
 void add(Numbers& to, const IntersectionSample& sample) {
-    add(to, sample.point);
+    add(to, sample.position);
     to.push_back(sample.edge);
 }
 void add(Numbers& to, const ContactCluster& cluster) {
@@ -47,7 +47,7 @@ void add(Numbers& to, const ContactCluster& cluster) {
     add(to, cluster.extreme);
     to.push_back(cluster.count);
 }
-void add(Numbers& /*to*/, const NoRecord& /*none*/) {}
+void add(Numbers& /*to*/, const NoPoint& /*none*/) {}
 void add(Numbers& to, const PenetrationValues& values) {
     to.push_back(values.count);
     if (values.count > 0) {
@@ -99,7 +99,7 @@ Numbers numbers_of(PairTable<Query>& table) {
                         static_cast<double>(row.status), row.intersects ? 1.0 : 0.0,
                         row.error_bound, static_cast<double>(row.record_count)});
         add(numbers, static_cast<const typename Query::Result::Values&>(row));
-        for (const auto& record : table.records(row)) {
+        for (const auto& record : table.points(row)) {
             add(numbers, record);
         }
         if constexpr (std::is_same_v<Query, ContactQuery>) {
@@ -115,10 +115,10 @@ template <class Result>
 auto records_of(const Result& result) {
     if constexpr (requires { result.samples; }) {
         return std::span(result.samples);
-    } else if constexpr (requires { result.records; }) {
-        return std::span(result.records);
+    } else if constexpr (requires { result.points; }) {
+        return std::span(result.points);
     } else {
-        return std::span<const NoRecord>();
+        return std::span<const NoPoint>();
     }
 }
 
@@ -200,7 +200,7 @@ void check_against_batch(ChangingScene& scene, PairTable<Query>& table) {
         for (const auto& record : records_of(*answer)) {
             add(expected, record);
         }
-        for (const auto& record : table.records(row)) {
+        for (const auto& record : table.points(row)) {
             add(found, record);
         }
         if constexpr (requires { answer->manifold; }) {
@@ -307,7 +307,7 @@ TEST(PairTables, HaveTheRowsOfTheBroadPhaseInOrder) {
     for (std::size_t i = 0; i < scene.size(); ++i) {
         instances.push_back(scene.instance(i));
     }
-    const auto pairs = scene.context().find_pairs(instances, 0.25);
+    const auto pairs = scene.context().find_overlapping_boxes(instances, 0.25);
     ASSERT_TRUE(pairs.has_value());
     PairTable once(IntersectionTestQuery{}, {0.25, false});
     ASSERT_TRUE(scene.world().update(once).ok());
@@ -417,10 +417,10 @@ TEST(PairTables, RefuseWhatAWorldCannotAnswer) {
         scene.world().update(still, {.moving = moving, .ends = end}).message().find("motions"),
         std::string::npos);
     query.technique = Technique::automatic;
-    query.resident = true;
+    query.on_device = true;
     PairTable resident(query);
     EXPECT_EQ(scene.world().update(resident).code(), StatusCode::invalid_query);
-    query.resident = false;
+    query.on_device = false;
     query.tolerance = -1.0;
     PairTable wrong(query);
     const Status status = scene.world().update(wrong);

@@ -69,9 +69,10 @@ public:
     DevicePairWork(const Scene& scene, Rows rows, Context& context, const Gpu& gpu)
         : context_(context),
           world_(take(World::create(context))),
-          table_(
-              {.tolerance = crowd_tolerance, .records = false, .resident = rows == Rows::resident},
-              {.hits_only = true, .technique = Technique::compute}),
+          table_({.tolerance = crowd_tolerance,
+                  .summary_only = true,
+                  .on_device = rows == Rows::resident},
+                 {.hits_only = true, .technique = Technique::compute}),
           rows_(rows) {
         for (const SceneShape& shape : scene.shapes) {
             shapes_.push_back(take(add_shape(context, shape.rings, shape.deviation)));
@@ -158,8 +159,8 @@ public:
                                       .rectangle = request.rectangle,
                                       .values = false,
                                       .technique = Technique::compute,
-                                      .resident = true,
-                                      .resident_features = false});
+                                      .on_device = true,
+                                      .features_on_device = false});
     }
     ~ResidentFieldWork() override {
         static_cast<void>(context_.remove_shape(shape_));  // fails only for an unknown shape

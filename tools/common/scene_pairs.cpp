@@ -150,7 +150,7 @@ void SceneRunner::add_near_pairs(std::size_t query, const PairSelection& among) 
     const double reach = request.type == QueryType::contacts
                              ? request.contact_distance.value_or(request.tolerance)
                              : all.reach;
-    const auto pairs = context_.find_pairs(among.instances, reach);
+    const auto pairs = context_.find_overlapping_boxes(among.instances, reach);
     if (!pairs.has_value() && bad_ == BadEntries::recorded) {
         refuse({query, Entry::all, Entry::all},
                place_of(query) + ": " + full_message(pairs.error()));

@@ -96,10 +96,11 @@ void SceneRunner::add_instances() {
         if (problem.empty() && shape_problems_[instance.shape].empty() &&
             bad_ == BadEntries::recorded) {
             // The library says which poses can be used.
-            const auto pairs = context_.find_pairs({&instances_.back(), 1}, 0.0);
+            const auto pairs = context_.find_overlapping_boxes({&instances_.back(), 1}, 0.0);
             if (!pairs.has_value()) {
                 problem = file_ + ": instances." + instance.name + ": " +
-                          without_prefix(full_message(pairs.error()), "find_pairs: instance 0: ");
+                          without_prefix(full_message(pairs.error()),
+                                         "find_overlapping_boxes: instance 0: ");
             }
         }
         instance_problems_.push_back(std::move(problem));

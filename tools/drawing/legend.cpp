@@ -47,7 +47,7 @@ void add_entries(std::vector<LegendEntry>& entries, const PenetrationResult& res
     if (result.count == 0) {
         return;
     }
-    if (!result.records.empty()) {
+    if (!result.points.empty()) {
         entries.push_back({pair_mark(draw_way_out, true), "point of A in B, its way out"});
     }
     entries.push_back({pair_mark(draw_deepest_mark, false), "the deepest point"});
@@ -65,7 +65,7 @@ void add_entries(std::vector<LegendEntry>& entries, const IntersectionResult&) {
 void add_entries(std::vector<LegendEntry>&, const DistanceFieldResult&) {}
 
 void add_entries(std::vector<LegendEntry>& entries, const ContactResult& result) {
-    if (!result.records.empty()) {
+    if (!result.points.empty()) {
         entries.push_back({pair_mark(draw_contact_mark, true), "contact, normal of B"});
     }
     if (!result.manifold.empty()) {

@@ -19,8 +19,8 @@ std::size_t arrow_stride(std::size_t count) {
 /// The points of the records on the page, without those that would cover the previous one.
 std::vector<Vector2> spaced_points(const PenetrationResult& result, const View& view) {
     std::vector<Vector2> points;
-    for (const PenetrationRecord& record : result.records) {
-        const Vector2 point = view.to_page(record.point);
+    for (const PenetratingPoint& record : result.points) {
+        const Vector2 point = view.to_page(record.position);
         if (points.empty() ||
             std::hypot(point.x - points.back().x, point.y - points.back().y) >= min_spacing) {
             points.push_back(point);
@@ -65,21 +65,21 @@ void draw_samples(Canvas& canvas, const IntersectionResult& result, const View& 
         side = std::max(side, 8.0);  // marks follow an outline and must be visible beside it
     }
     for (const IntersectionSample& sample : result.samples) {
-        draw_sample_mark(canvas, view.to_page(sample.point), side);
+        draw_sample_mark(canvas, view.to_page(sample.position), side);
     }
 }
 
 void draw_penetrating_points(Canvas& canvas, const PenetrationResult& result, const View& view) {
-    const std::size_t count = result.records.size();
+    const std::size_t count = result.points.size();
     for (std::size_t index = 0; index < count; index += arrow_stride(count)) {
-        const PenetrationRecord& record = result.records[index];
-        draw_way_out(canvas, view.to_page(record.point), view.to_page(record.nearest));
+        const PenetratingPoint& record = result.points[index];
+        draw_way_out(canvas, view.to_page(record.position), view.to_page(record.nearest));
     }
     for (const Vector2& point : spaced_points(result, view)) {
         draw_point_mark(canvas, point);
     }
     if (result.count > 0) {
-        draw_deepest_mark(canvas, view.to_page(result.deepest.point),
+        draw_deepest_mark(canvas, view.to_page(result.deepest.position),
                           view.to_page(result.deepest.nearest));
     }
 }
@@ -113,10 +113,10 @@ void draw_contacts(Canvas& canvas, const ContactResult& result, const View& view
     const auto tip = [&](Vector2 point, Vector2 normal, double length) {
         return Vector2{point.x + length * normal.x, point.y - length * normal.y};
     };
-    const std::size_t stride = arrow_stride(result.records.size());
-    for (std::size_t index = 0; index < result.records.size(); ++index) {
-        const ContactRecord& contact = result.records[index];
-        const Vector2 point = view.to_page(contact.point);
+    const std::size_t stride = arrow_stride(result.points.size());
+    for (std::size_t index = 0; index < result.points.size(); ++index) {
+        const ContactPoint& contact = result.points[index];
+        const Vector2 point = view.to_page(contact.position);
         if (index % stride == 0) {
             draw_contact_mark(canvas, point, tip(point, contact.normal, normal_length));
         }
@@ -125,7 +125,7 @@ void draw_contacts(Canvas& canvas, const ContactResult& result, const View& view
     }
     for (const ContactCluster& cluster : result.manifold) {
         draw_stretch_mark(canvas, view.to_page(cluster.first), view.to_page(cluster.last));
-        const Vector2 point = view.to_page(cluster.extreme.point);
+        const Vector2 point = view.to_page(cluster.extreme.position);
         const Vector2 end = tip(point, cluster.normal, 2.0 * normal_length);
         canvas.arrow(point, end, 20.0, {palette::text, 6.5});
         canvas.arrow(point, tip(point, cluster.normal, 2.0 * normal_length - 4.0), 15.0,

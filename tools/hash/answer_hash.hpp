@@ -42,16 +42,16 @@ public:
     }
 
     // What the answers list.
-    void add(const NoRecord&) {}
-    void add(const PenetrationRecord& r) {
-        add_all(r.point, r.depth, r.direction, r.nearest, r.feature, r.unique);
+    void add(const NoPoint&) {}
+    void add(const PenetratingPoint& r) {
+        add_all(r.position, r.depth, r.direction, r.nearest, r.feature, r.unique);
     }
-    void add(const IntersectionSample& s) { add_all(s.point, s.edge); }
+    void add(const IntersectionSample& s) { add_all(s.position, s.edge); }
     void add(const FieldPoint& p) {
-        add_all(p.point, p.distance, p.error_bound, p.inside, p.gradient, p.feature, p.unique);
+        add_all(p.position, p.distance, p.error_bound, p.inside, p.gradient, p.feature, p.unique);
     }
-    void add(const ContactRecord& r) {
-        add_all(r.point, r.normal, r.distance, r.nearest, r.feature, r.on, r.inside, r.unique);
+    void add(const ContactPoint& r) {
+        add_all(r.position, r.normal, r.distance, r.nearest, r.feature, r.on, r.inside, r.unique);
     }
     void add(const ContactCluster& c) { add_all(c.first, c.last, c.normal, c.extreme, c.count); }
 
@@ -114,7 +114,7 @@ public:
         for (const PairRow<Query>& row : table.rows()) {
             const typename Query::Result::Values& values = row;
             add_all(row.a, row.b, row.status, row.intersects, row.error_bound, values,
-                    table.records(row));
+                    table.points(row));
         }
     }
 
@@ -131,8 +131,8 @@ private:
         if constexpr (requires { result.manifold; }) {
             add(result.manifold);
         }
-        if constexpr (requires { result.records; }) {
-            add(result.records);
+        if constexpr (requires { result.points; }) {
+            add(result.points);
         }
         if constexpr (requires { result.samples; }) {
             add(result.samples);

@@ -13,7 +13,7 @@ void ask_of_points(const PlacedPair& pair, Batch& batch) {
                                        .b = pair.b,
                                        .tolerance = pair.tolerance,
                                        .points = points,
-                                       .records = records,
+                                       .summary_only = !records,
                                        .technique = cpu});
         }
     }

@@ -49,13 +49,13 @@ void write_result(JsonWriter& json, const PenetrationResult& result) {
     if (result.count == 0) {
         json.null();
     } else {
-        json.begin_object().key("point").value(result.deepest.point);
+        json.begin_object().key("point").value(result.deepest.position);
         json.key("depth").value(result.deepest.depth);
         json.key("direction").value(result.deepest.direction).end_object();
     }
     json.key("records").begin_array(JsonWriter::Layout::lines);
-    for (const PenetrationRecord& record : result.records) {
-        json.begin_object().key("point").value(record.point);
+    for (const PenetratingPoint& record : result.points) {
+        json.begin_object().key("point").value(record.position);
         json.key("depth").value(record.depth).key("direction").value(record.direction);
         json.key("nearest").value(record.nearest).key("feature");
         write_feature(json, record.feature);
@@ -78,7 +78,7 @@ void write_result(JsonWriter& json, const IntersectionResult& result) {
     }
     json.key("samples").begin_array(JsonWriter::Layout::lines);
     for (const IntersectionSample& sample : result.samples) {
-        json.value(sample.point);
+        json.value(sample.position);
     }
     json.end_array();
     if (result.kind == IntersectionKind::volume_volume) {
@@ -104,7 +104,7 @@ void write_result(JsonWriter& json, const DistanceFieldResult& result) {
     }
     json.key("points").begin_array(JsonWriter::Layout::lines);
     for (const FieldPoint& point : result.points) {
-        json.begin_object().key("point").value(point.point);
+        json.begin_object().key("point").value(point.position);
         json.key("distance").value(point.distance).key("error_bound").value(point.error_bound);
         json.key("inside").value(point.inside).key("gradient").value(point.gradient);
         json.key("feature");
@@ -127,8 +127,8 @@ void write_methods(JsonWriter& json, const QueryRequest& request,
     }
 }
 
-void write_contact(JsonWriter& json, const ContactRecord& contact) {
-    json.begin_object().key("point").value(contact.point);
+void write_contact(JsonWriter& json, const ContactPoint& contact) {
+    json.begin_object().key("point").value(contact.position);
     json.key("normal").value(contact.normal).key("distance").value(contact.distance);
     json.key("nearest").value(contact.nearest).key("feature");
     write_feature(json, contact.feature);
@@ -148,7 +148,7 @@ void write_result(JsonWriter& json, const ContactResult& result) {
     }
     json.end_array();
     json.key("contacts").begin_array(JsonWriter::Layout::lines);
-    for (const ContactRecord& contact : result.records) {
+    for (const ContactPoint& contact : result.points) {
         write_contact(json, contact);
     }
     json.end_array();

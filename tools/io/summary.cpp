@@ -27,10 +27,10 @@ void write_result(std::ostream& stream, const PenetrationResult& result) {
     if (result.count == 0) {
         return;
     }
-    const PenetrationRecord& deepest = result.deepest;
+    const PenetratingPoint& deepest = result.deepest;
     const double degrees =
         std::atan2(deepest.direction.y, deepest.direction.x) * (180.0 / std::numbers::pi);
-    write_item(stream, "deepest", point_text(deepest.point));
+    write_item(stream, "deepest", point_text(deepest.position));
     write_item(stream, "depth", short_number(deepest.depth));
     write_item(stream, "direction",
                point_text(deepest.direction) + ", " + short_number(degrees) + " degrees");
@@ -63,7 +63,7 @@ void write_result(std::ostream& stream, const DistanceFieldResult& result) {
     constexpr std::size_t max_shown = 8;
     for (std::size_t index = 0; index < result.points.size() && index < max_shown; ++index) {
         const FieldPoint& point = result.points[index];
-        write_item(stream, "at " + point_text(point.point),
+        write_item(stream, "at " + point_text(point.position),
                    short_number(point.distance) + " within " + short_number(point.error_bound) +
                        ", inside " + short_number(point.inside) + ", gradient " +
                        point_text(point.gradient) + ", " + feature_text(point.feature) +

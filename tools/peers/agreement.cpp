@@ -89,7 +89,7 @@ void Comparison::compare(const PenetrationResult& result, const Answer& answer) 
     }
     // Both sides are sampled: each may miss the deepest point by the bound.
     expect_near("depth", depth, answer.number, result.error_bound);
-    for (const PenetrationRecord& record : result.records) {
+    for (const PenetratingPoint& record : result.records) {
         if (!peer_.is_inside(query_->b, record.point)) {
             complain("a record's point is not inside");
         }

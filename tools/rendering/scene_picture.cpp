@@ -30,7 +30,8 @@ std::vector<const Record*> thinned_out(const std::vector<Record>& records, const
     std::vector<const Record*> kept;
     for (const Record& record : records) {
         if (kept.empty() ||
-            view.scale() * simulation::length(record.point - kept.back()->point) >= min_pixels) {
+            view.scale() * simulation::length(record.position - kept.back()->position) >=
+                min_pixels) {
             kept.push_back(&record);
         }
     }
@@ -54,14 +55,13 @@ Observations observe(simulation::World& world) {
     Observations observations;
     for (const auto& overlap : world.proximity().overlaps()) {
         for (const PenetrationResult* result : {overlap.first_in_second, overlap.second_in_first}) {
-            observations.penetrating.insert(observations.penetrating.end(), result->records.begin(),
-                                            result->records.end());
+            observations.penetrating.insert(observations.penetrating.end(), result->points.begin(),
+                                            result->points.end());
         }
     }
     for (const auto& touching : world.proximity().contacts(2.0 * world.scene().tolerance)) {
-        observations.contacts.insert(observations.contacts.end(),
-                                     touching.contacts->records.begin(),
-                                     touching.contacts->records.end());
+        observations.contacts.insert(observations.contacts.end(), touching.contacts->points.begin(),
+                                     touching.contacts->points.end());
     }
     return observations;
 }
@@ -78,15 +78,15 @@ void draw_bodies(Drawing& drawing, const simulation::Scene& scene, const View& v
 }
 
 void draw_observations(Drawing& drawing, const Observations& observations, const View& view) {
-    for (const ContactRecord* record : thinned_out(observations.contacts, view)) {
-        const Vector2 point = view.to_page(record->point);
+    for (const ContactPoint* record : thinned_out(observations.contacts, view)) {
+        const Vector2 point = view.to_page(record->position);
         drawing.line({point, point + Vector2{11.0 * record->normal.x, -11.0 * record->normal.y}},
                      contact_color.with_alpha(0.8), 1.1);
         drawing.dot(point, 1.8, contact_color);
     }
-    for (const PenetrationRecord* record : thinned_out(observations.penetrating, view)) {
+    for (const PenetratingPoint* record : thinned_out(observations.penetrating, view)) {
         constexpr double shortest = 12.0;
-        const Vector2 point = view.to_page(record->point);
+        const Vector2 point = view.to_page(record->position);
         const double length = shortest + view.scale() * record->depth;
         drawing.arrow(point,
                       point + Vector2{length * record->direction.x, -length * record->direction.y},

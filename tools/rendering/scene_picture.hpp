@@ -10,8 +10,8 @@ namespace nearfield::tools {
 
 /// The results of proximity queries on a scene at one moment.
 struct Observations {
-    std::vector<PenetrationRecord> penetrating;
-    std::vector<ContactRecord> contacts;
+    std::vector<PenetratingPoint> penetrating;
+    std::vector<ContactPoint> contacts;
 };
 
 /// Runs the queries, between two frames.

@@ -64,10 +64,10 @@ void improve(Constraint& constraint, double friction) {
     constraint.across = across;
 }
 
-Contact contact_at(const ContactRecord& record, Body& a, Body& b) {
+Contact contact_at(const ContactPoint& record, Body& a, Body& b) {
     const bool on_a = record.on == Side::a;
-    const Vector2 point_a = on_a ? record.point : record.nearest;
-    const Vector2 point_b = on_a ? record.nearest : record.point;
+    const Vector2 point_a = on_a ? record.position : record.nearest;
+    const Vector2 point_b = on_a ? record.nearest : record.position;
     const Vector2 normal = record.distance > 0.0 && !record.inside
                                ? (1.0 / record.distance) * (point_a - point_b)
                                : record.normal;
@@ -98,10 +98,10 @@ std::vector<Contact> contacts_of(std::span<const Proximity::Touching> touching,
         const std::size_t first = contacts.size();
         for (const ContactCluster& cluster : pair.contacts->manifold) {
             contacts.push_back(contact_at(cluster.extreme, a, b));
-            for (const ContactRecord& record : pair.contacts->records) {
-                const bool is_an_end = record.on == Side::a && (record.point == cluster.first ||
-                                                                record.point == cluster.last);
-                if (is_an_end && record.point != cluster.extreme.point) {
+            for (const ContactPoint& record : pair.contacts->points) {
+                const bool is_an_end = record.on == Side::a && (record.position == cluster.first ||
+                                                                record.position == cluster.last);
+                if (is_an_end && record.position != cluster.extreme.position) {
                     contacts.push_back(contact_at(record, a, b));
                 }
             }

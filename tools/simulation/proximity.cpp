@@ -65,7 +65,7 @@ const std::vector<InstancePair>& Proximity::near_pairs(double reach) {
     place();
     {
         const Stopwatch watch(count_.milliseconds);
-        const auto found = tools::take(context_.find_pairs(instances_, reach));
+        const auto found = tools::take(context_.find_overlapping_boxes(instances_, reach));
         pairs_.assign(found.begin(), found.end());
     }
     std::erase_if(pairs_, [this](const InstancePair& pair) {

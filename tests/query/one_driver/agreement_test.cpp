@@ -56,15 +56,15 @@ TEST_F(Agreement, OfPenetrationIsMissed) {
             {"cell", [](auto& r) { r.cell *= 1.0 + 1e-15; }},
             {"bound", [](auto& r) { r.error_bound *= 1.0 + 1e-5; }},
             {"regions", [](auto& r) { ++r.regions.at(0).height; }},
-            {"a record", [](auto& r) { r.records.erase(r.records.begin() + 5); }},
-            {"point", [](auto& r) { r.records[5].point.x += 1e-12; }},
-            {"depth", [](auto& r) { r.records[5].depth += 1e-12; }},
-            {"direction", [](auto& r) { r.records[5].direction.x += 1e-12; }},
-            {"unique", [](auto& r) { r.records[5].unique = !r.records[5].unique; }},
+            {"a record", [](auto& r) { r.points.erase(r.points.begin() + 5); }},
+            {"point", [](auto& r) { r.points[5].position.x += 1e-12; }},
+            {"depth", [](auto& r) { r.points[5].depth += 1e-12; }},
+            {"direction", [](auto& r) { r.points[5].direction.x += 1e-12; }},
+            {"unique", [](auto& r) { r.points[5].unique = !r.points[5].unique; }},
             {"another wall, as near",
              [&](auto& r) {
-                 r.records[5].feature.index ^= 8U;
-                 r.records[5].nearest.x += 0.5 * r.records[5].depth + d;
+                 r.points[5].feature.index ^= 8U;
+                 r.points[5].nearest.x += 0.5 * r.points[5].depth + d;
              }},
             {"deepest", [](auto& r) { r.deepest.depth *= 0.99; }},
         });
@@ -74,11 +74,11 @@ TEST_F(Agreement, OfContactsIsMissed) {
     const PlacedPair placed(context(), pair());
     expect_noticed(placed, placed.contacts(0.04),
                    {
-                       {"a record", [](auto& r) { r.records.erase(r.records.begin()); }},
-                       {"side", [](auto& r) { r.records[3].on = Side::b; }},
-                       {"inside", [](auto& r) { r.records[3].inside = !r.records[3].inside; }},
-                       {"normal", [](auto& r) { r.records[3].normal.y += 1e-12; }},
-                       {"distance", [](auto& r) { r.records[3].distance += 1e-12; }},
+                       {"a record", [](auto& r) { r.points.erase(r.points.begin()); }},
+                       {"side", [](auto& r) { r.points[3].on = Side::b; }},
+                       {"inside", [](auto& r) { r.points[3].inside = !r.points[3].inside; }},
+                       {"normal", [](auto& r) { r.points[3].normal.y += 1e-12; }},
+                       {"distance", [](auto& r) { r.points[3].distance += 1e-12; }},
                        {"manifold", [](auto& r) { r.manifold[0].first.x += 1e-12; }},
                    });
 }
@@ -91,7 +91,7 @@ TEST_F(Agreement, OfIntersectionsIsMissed) {
                        {"area", [](auto& r) { r.area *= 1.0 + 1e-15; }},
                        {"box", [](auto& r) { r.box.max.x += 1e-12; }},
                        {"a sample", [](auto& r) { r.samples.pop_back(); }},
-                       {"sample", [](auto& r) { r.samples[9].point.x += 1e-12; }},
+                       {"sample", [](auto& r) { r.samples[9].position.x += 1e-12; }},
                        {"edge", [](auto& r) { r.samples[9].edge ^= 1U; }},
                    });
 }

@@ -109,7 +109,7 @@ TEST_F(CpuContext, RefusesWhatNeedsADeviceInTheResultsOfThoseQueriesAlone) {
     };
     expect_refused(results[raster].status, "technique raster");
     expect_refused(results[compute].status, "technique compute");
-    expect_refused(results[resident].status, "resident");
+    expect_refused(results[resident].status, "on_device");
     expect_refused(results[blended].status, "blended gradients");
     EXPECT_TRUE(results[answered].status.ok()) << results[answered].status.text();
     EXPECT_GT(results[answered].count, 0U);
@@ -155,7 +155,7 @@ TEST_F(CpuContext, OneQueryIsAnsweredInOneLineOrRefusedWithItsStatus) {
         context.answer(PenetrationQuery{{shapes.a, {}}, {shapes.b, {}}, 0.1});
     ASSERT_TRUE(answer.has_value()) << answer.error().text();
     EXPECT_GT(answer->count, 0U);
-    EXPECT_EQ(answer->records.size(), answer->count);
+    EXPECT_EQ(answer->points.size(), answer->count);
     EXPECT_EQ(context.answer(PenetrationQuery{{shapes.a, {}}, {shapes.b, {}}, -1.0}).error().code(),
               StatusCode::invalid_query);
     EXPECT_EQ(context.answer(SeparationQuery{{shapes.a, {}}, {}, 0.1}).error().code(),

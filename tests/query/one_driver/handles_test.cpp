@@ -37,7 +37,7 @@ TEST_F(Handles, OfShapesOfAnotherContextAreRefused) {
     expect(here_.update_shape(foreign_, square), code, words);
     expect(here_.remove_shape(foreign_), code, words);
     const Instance instances[] = {{own_, {}}, {foreign_, {}}};
-    const Status pairs = here_.find_pairs(instances, 0.0).error();
+    const Status pairs = here_.find_overlapping_boxes(instances, 0.0).error();
     expect(pairs, code, words);
     expect(pairs, code, "instance 1");
     const Status first = run_alone(here_, SeparationQuery{instances[1], instances[0], 0.01}).status;

@@ -221,7 +221,7 @@ TEST_F(Hazards, AreInNoQueryThatIsAlone) {
 }
 
 TEST_F(Hazards, AreInNoUpdateOfDevicePairs) {
-    constexpr PenetrationQuery without_records{.tolerance = 0.05, .records = false};
+    constexpr PenetrationQuery without_records{.tolerance = 0.05, .summary_only = true};
     for (const int count : {3, 100}) {
         update_device_pairs(count, without_records);
     }
@@ -243,9 +243,9 @@ TEST_F(Hazards, AreInNoPartsOfDevicePairs) {
     update_device_pairs(100, IntersectionTestQuery{});
     check();
     start_anew(1U << 20U);
-    leave_device_pairs(
-        PenetrationQuery{.tolerance = 0.2, .points = vertices, .records = false, .resident = true});
-    leave_device_pairs(PenetrationQuery{.tolerance = 0.2, .points = vertices, .resident = true});
+    leave_device_pairs(PenetrationQuery{
+        .tolerance = 0.2, .points = vertices, .summary_only = true, .on_device = true});
+    leave_device_pairs(PenetrationQuery{.tolerance = 0.2, .points = vertices, .on_device = true});
     EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
 }
 
@@ -256,9 +256,11 @@ TEST_F(Hazards, AreInNoQuestionsAboutAWorld) {
 }
 
 TEST_F(Hazards, AreInNoDevicePairsThatStayOnTheDevice) {
-    leave_device_pairs(PenetrationQuery{.tolerance = 0.05, .records = false, .resident = true});
+    leave_device_pairs(
+        PenetrationQuery{.tolerance = 0.05, .summary_only = true, .on_device = true});
     EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
-    leave_device_pairs(ContactQuery{.tolerance = 0.05, .contact_distance = 0.05, .resident = true});
+    leave_device_pairs(
+        ContactQuery{.tolerance = 0.05, .contact_distance = 0.05, .on_device = true});
     check();
 }
 

@@ -30,9 +30,9 @@ struct Spoiling {
 };
 
 /// The record nearest to half the maximum depth: not a special case for any check.
-PenetrationRecord& ordinary(PenetrationResult& result) {
-    return *std::min_element(result.records.begin(), result.records.end(),
-                             [&](const PenetrationRecord& a, const PenetrationRecord& b) {
+PenetratingPoint& ordinary(PenetrationResult& result) {
+    return *std::min_element(result.points.begin(), result.points.end(),
+                             [&](const PenetratingPoint& a, const PenetratingPoint& b) {
                                  const double half = result.deepest.depth / 2;
                                  return std::abs(a.depth - half) < std::abs(b.depth - half);
                              });
@@ -43,7 +43,7 @@ TEST_F(Laws, OfPenetrationNoticeEverySpoiling) {
     const auto points = PenetrationPoints::boundary;
     const PenetrationResult good = run_alone(context(), placed.penetration(points));
     check_penetration(placed, points, good);
-    ASSERT_GT(good.records.size(), 20U);
+    ASSERT_GT(good.points.size(), 20U);
     const double d = placed.tolerance();
     const Spoiling<PenetrationResult> spoilings[] = {
         {"status", [](auto& r) { r.status = Status(StatusCode::device_error, "spoilt"); }},
@@ -59,11 +59,11 @@ TEST_F(Laws, OfPenetrationNoticeEverySpoiling) {
         {"feature out of range", [](auto& r) { ordinary(r).feature.index = 20; }},
         {"unique", [](auto& r) { ordinary(r).unique = !ordinary(r).unique; }},
         {"deepest", [](auto& r) { r.deepest.depth *= 0.99; }},
-        {"order", [](auto& r) { std::reverse(r.records.begin(), r.records.end()); }},
+        {"order", [](auto& r) { std::reverse(r.points.begin(), r.points.end()); }},
         {"completeness",
          [](auto& r) {
-             const auto middle = r.records.begin() + static_cast<long>(r.records.size() / 2);
-             r.records.erase(middle - 4, middle + 4);
+             const auto middle = r.points.begin() + static_cast<long>(r.points.size() / 2);
+             r.points.erase(middle - 4, middle + 4);
              r.count -= 8;
          }},
         {"region", [](auto& r) { ++r.regions.at(0).width; }},
@@ -81,13 +81,13 @@ TEST_F(Laws, OfVerticesNoticeEverySpoiling) {
     const auto points = PenetrationPoints::vertices;
     const PenetrationResult good = run_alone(context(), placed.penetration(points));
     check_penetration(placed, points, good);
-    ASSERT_GT(good.records.size(), 2U);
+    ASSERT_GT(good.points.size(), 2U);
     PenetrationResult missing = good;
-    missing.records.erase(missing.records.begin() + 1);
+    missing.points.erase(missing.points.begin() + 1);
     --missing.count;
     EXPECT_NONFATAL_FAILURE(check_penetration(placed, points, missing), "has no record");
     PenetrationResult twice = good;
-    twice.records.insert(twice.records.begin(), twice.records.front());
+    twice.points.insert(twice.points.begin(), twice.points.front());
     ++twice.count;
     EXPECT_NONFATAL_FAILURE(check_penetration(placed, points, twice), "vertices are inside");
 }
@@ -102,7 +102,7 @@ TEST_F(Laws, OfIntersectionNoticeEverySpoiling) {
         {"kind", [](auto& r) { r.kind = IntersectionKind::boundary_volume; }},
         {"count", [](auto& r) { --r.count; }},
         {"area", [](auto& r) { r.area *= 1.001; }},
-        {"sample off the grid", [](auto& r) { r.samples[50].point.x += r.cell / 3; }},
+        {"sample off the grid", [](auto& r) { r.samples[50].position.x += r.cell / 3; }},
         {"edge", [](auto& r) { r.samples[50].edge = 0; }},
         {"order", [](auto& r) { std::swap(r.samples[20], r.samples[21]); }},
         {"completeness",
@@ -114,7 +114,7 @@ TEST_F(Laws, OfIntersectionNoticeEverySpoiling) {
          }},
         {"sample outside both",
          [](auto& r) {
-             r.samples[0].point.y -= 3 * r.cell;
+             r.samples[0].position.y -= 3 * r.cell;
              r.regions[0].min.y -= 3 * r.cell;
              r.regions[0].height += 3;
          }},
@@ -169,27 +169,27 @@ TEST_F(Laws, OfContactsNoticeEverySpoiling) {
     const double near = 0.05;
     const ContactResult good = run_alone(context(), placed.contacts(near));
     check_contacts(placed, near, good);
-    ASSERT_GT(good.records.size(), 20U);
+    ASSERT_GT(good.points.size(), 20U);
     ASSERT_GT(good.manifold.size(), 1U);
-    const auto of_b = [](ContactResult& r) -> ContactRecord& { return r.records.back(); };
+    const auto of_b = [](ContactResult& r) -> ContactPoint& { return r.points.back(); };
     const Spoiling<ContactResult> spoilings[] = {
         {"intersects", [](auto& r) { r.intersects = false; }},
         {"count", [](auto& r) { ++r.count; }},
-        {"point", [](auto& r) { r.records[3].point.x += 1e-5; }},
+        {"point", [](auto& r) { r.points[3].position.x += 1e-5; }},
         {"point of B", [&](auto& r) { of_b(r).point.x += 1e-5; }},
         {"side", [&](auto& r) { of_b(r).on = Side::a; }},
-        {"distance", [](auto& r) { r.records[3].distance += 1e-4; }},
+        {"distance", [](auto& r) { r.points[3].distance += 1e-4; }},
         {"too far", [&](auto& r) { of_b(r).distance = 1.01 * near; }},
-        {"nearest", [](auto& r) { r.records[3].nearest.y += 1e-5; }},
-        {"inside", [](auto& r) { r.records[3].inside = !r.records[3].inside; }},
+        {"nearest", [](auto& r) { r.points[3].nearest.y += 1e-5; }},
+        {"inside", [](auto& r) { r.points[3].inside = !r.points[3].inside; }},
         {"normal",
          [](auto& r) {
-             r.records[3].normal = {-r.records[3].normal.x, -r.records[3].normal.y};
+             r.points[3].normal = {-r.points[3].normal.x, -r.points[3].normal.y};
          }},
-        {"feature", [](auto& r) { r.records[3].feature.index = 1000; }},
+        {"feature", [](auto& r) { r.points[3].feature.index = 1000; }},
         {"completeness",
          [](auto& r) {
-             r.records.erase(r.records.begin() + 2, r.records.begin() + 8);
+             r.points.erase(r.points.begin() + 2, r.points.begin() + 8);
              r.count -= 6;
          }},
         {"no manifold", [](auto& r) { r.manifold.clear(); }},

@@ -51,20 +51,20 @@ protected:
         EXPECT_GT(scarce.localization.nodes_evaluated, 0U) << "was not localised";
     }
 
-    static void expect_same(std::vector<PenetrationRecord> one,
-                            std::vector<PenetrationRecord> other) {
+    static void expect_same(std::vector<PenetratingPoint> one,
+                            std::vector<PenetratingPoint> other) {
         ASSERT_EQ(one.size(), other.size());
-        const auto key = [](const PenetrationRecord& record) {
-            return std::tie(record.point.x, record.point.y, record.depth, record.nearest.x,
+        const auto key = [](const PenetratingPoint& record) {
+            return std::tie(record.position.x, record.position.y, record.depth, record.nearest.x,
                             record.nearest.y, record.feature.index, record.unique);
         };
         expect_same(std::move(one), std::move(other), key);
     }
 
-    static void expect_same(std::vector<ContactRecord> one, std::vector<ContactRecord> other) {
+    static void expect_same(std::vector<ContactPoint> one, std::vector<ContactPoint> other) {
         ASSERT_EQ(one.size(), other.size());
-        const auto key = [](const ContactRecord& record) {
-            return std::tie(record.on, record.point.x, record.point.y, record.distance,
+        const auto key = [](const ContactPoint& record) {
+            return std::tie(record.on, record.position.x, record.position.y, record.distance,
                             record.normal.x, record.normal.y, record.feature.index, record.inside,
                             record.unique);
         };
@@ -98,10 +98,10 @@ TEST_F(MemoryLimit, LeavesPenetrationAsItIs) {
         expect_other_ways(result, other);
         EXPECT_GT(result.count, 1000U);
         expect_same_summary(result, other);
-        expect_same(result.records, other.records);
+        expect_same(result.points, other.points);
 
         PenetrationQuery summary = scarce.penetration();
-        summary.records = false;
+        summary.points = false;
         expect_same_summary(result, run_alone(little, summary));
     });
 }
@@ -115,7 +115,7 @@ TEST_F(MemoryLimit, LeavesContactsAsTheyAre) {
         EXPECT_GT(result.count, 500U);
         EXPECT_EQ(result.intersects, other.intersects);
         EXPECT_EQ(result.manifold.size(), other.manifold.size());
-        expect_same(result.records, other.records);
+        expect_same(result.points, other.points);
     });
 }
 

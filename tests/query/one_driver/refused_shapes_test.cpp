@@ -41,7 +41,8 @@ TEST(RefusedShapes, AreNamedByWhatIsAskedAboutThem) {
     expect_reason(context.update_shape(bad, square), "update_shape", bad.error());
     expect_reason(context.remove_shape(bad), "remove_shape", bad.error());
     const std::vector<Instance> instances{{good}, {bad}};
-    expect_reason(context.find_pairs(instances, 0.0).error(), "instance 1", bad.error());
+    expect_reason(context.find_overlapping_boxes(instances, 0.0).error(), "instance 1",
+                  bad.error());
     Expected<World> world = World::create(context);
     expect_reason(world->add({.shape = bad}).error(), "add", bad.error());
     // Another one has its own reason.

@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 3) readonly buffer Intersection {
     NearfieldIntersectionSummary summary;
 };
 
-layout(location = 0) in vec2 place_of_sample;  // NearfieldIntersectionSample::point
+layout(location = 0) in vec2 place_of_sample;  // NearfieldIntersectionSample::position
 
 // Across a dot, as fractions of a cell.
 const vec2 corners[6] = vec2[6](vec2(-0.2, -0.2), vec2(0.2, -0.2), vec2(0.2, 0.2),

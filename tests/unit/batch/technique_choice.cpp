@@ -183,11 +183,11 @@ TEST_F(TechniqueChoice, LeavesToTheCpuWhatComputeMightRefuse) {
 
 TEST_F(TechniqueChoice, OfWhatStaysOnTheDeviceIsComputeWhereItAnswers) {
     auto points = between<PenetrationQuery>();
-    points.resident = true;
+    points.on_device = true;
     auto overlap = between<IntersectionQuery>();
-    overlap.resident = true;
+    overlap.on_device = true;
     DistanceFieldQuery distances = field(1.0);
-    distances.resident = true;
+    distances.on_device = true;
     for (TechniqueRule rule : {hardware(), software()}) {
         expect_all({points, overlap, distances}, Technique::compute, rule);
         rule.largest_range = plan::max_shape_bytes(a_, b_) - 1;
@@ -215,7 +215,7 @@ TEST_F(TechniqueChoice, IsLeftOpenWhereNoTechniqueAnswers) {
     rule.available.raster = false;
     EXPECT_EQ(choose_one(blended, rule), Technique::automatic);
     auto points = between<PenetrationQuery>();
-    points.resident = true;
+    points.on_device = true;
     rule.available = {.device = false, .draws = false, .raster = false, .compute = false};
     rule.thresholds.reset();
     EXPECT_EQ(choose_one(points, rule), Technique::automatic);

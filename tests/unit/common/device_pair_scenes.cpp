@@ -45,8 +45,8 @@ Found found_in(const SceneAnswer& answer) {
             if constexpr (requires { result.distance; }) {
                 found.length = result.distance;
             }
-            if constexpr (requires { result.records; }) {
-                for (const auto& record : result.records) {
+            if constexpr (requires { result.points; }) {
+                for (const auto& record : result.points) {
                     if constexpr (requires { record.point; }) {
                         found.records.push_back(record.point);
                     }

@@ -15,10 +15,10 @@ using geometry::Polygon;
 using geometry::Vector;
 
 /// The contacts of one boundary by brute force over samples and edges.
-std::vector<ContactRecord> contacts_of(const simd::TransformedEdges& a,
-                                       const simd::TransformedEdges& b, const ContactQuery& query,
-                                       double cell, Side side) {
-    std::vector<ContactRecord> contacts;
+std::vector<ContactPoint> contacts_of(const simd::TransformedEdges& a,
+                                      const simd::TransformedEdges& b, const ContactQuery& query,
+                                      double cell, Side side) {
+    std::vector<ContactPoint> contacts;
     for (const plan::BoundaryPoint& sample : samples::of_boundary(a, cell)) {
         const Vector point = plan::position(a.placed, sample);
         double least = std::numeric_limits<double>::infinity();
@@ -26,8 +26,8 @@ std::vector<ContactRecord> contacts_of(const simd::TransformedEdges& a,
             least = std::min(
                 least, geometry::nearest_on_segment(point, b.start(i), b.end(i)).squared_distance);
         }
-        ContactRecord contact;
-        contact.point = geometry::to_public(point);
+        ContactPoint contact;
+        contact.position = geometry::to_public(point);
         contact.distance = std::sqrt(least);
         contact.on = side;
         contact.inside = contact.distance > a.rounding + b.rounding && contains(b, point);
@@ -76,16 +76,16 @@ TEST(PointContacts, AreAllSamplesOfBothBoundariesThatAreNear) {
                 complete(pair, instances);
                 const simd::TransformedEdges& transformed_a = instances[pair.a];
                 const simd::TransformedEdges& transformed_b = instances[pair.b];
-                std::vector<ContactRecord> all =
+                std::vector<ContactPoint> all =
                     contacts_of(transformed_a, transformed_b, query, result.cell, Side::a);
-                const std::vector<ContactRecord> of_b =
+                const std::vector<ContactPoint> of_b =
                     contacts_of(transformed_b, transformed_a, query, result.cell, Side::b);
                 all.insert(all.end(), of_b.begin(), of_b.end());
                 EXPECT_EQ(result.count, all.size());
-                ASSERT_EQ(result.records.size(), all.size());
+                ASSERT_EQ(result.points.size(), all.size());
                 for (std::size_t i = 0; i < all.size(); ++i) {
-                    const ContactRecord& record = result.records[i];
-                    EXPECT_EQ(record.point, all[i].point);
+                    const ContactPoint& record = result.points[i];
+                    EXPECT_EQ(record.position, all[i].point);
                     EXPECT_NEAR(record.distance, all[i].distance, 1e-14);
                     EXPECT_EQ(record.on, all[i].on);
                     const bool touches = all[i].distance <= plan::touching_depth * query.tolerance;

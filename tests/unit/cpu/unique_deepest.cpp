@@ -20,7 +20,7 @@ PenetrationResult answer(const Polygon& a, const Polygon& b, const Pose& pose_a,
     query.a.pose = pose_a;
     query.tolerance = d;
     query.points = PenetrationPoints::vertices;
-    query.records = records;
+    query.summary_only = !records;
     const AnyQuery asked = query;
     plan::PlannedQuery planned;
     planned.query = &asked;
@@ -63,7 +63,7 @@ TEST(UniqueDeepest, WithoutRecordsOnlyATipBetweenTwoWallsHasSeveralWaysOut) {
         const Polygon b = samples::polygon({bar(1.0, pieces)});
         for (const double across : {0.0, 0.4e-3 * d, -0.4e-3 * d}) {
             const PenetrationResult middle = answer(a, b, {{across, 0.01}, 0.0}, false);
-            EXPECT_TRUE(middle.records.empty());
+            EXPECT_TRUE(middle.points.empty());
             EXPECT_EQ(middle.count, 1U);
             EXPECT_FALSE(middle.deepest.unique) << across;
         }
@@ -97,7 +97,7 @@ TEST(UniqueDeepest, WithoutRecordsItIsThatOfTheRecords) {
         ASSERT_EQ(without.count, with.count);
         if (with.count > 0) {
             EXPECT_NEAR(without.deepest.depth, with.deepest.depth, 1e-12);
-            EXPECT_EQ(without.deepest.point, with.deepest.point);
+            EXPECT_EQ(without.deepest.position, with.deepest.position);
             EXPECT_EQ(without.deepest.unique, with.deepest.unique);
             ++(with.deepest.unique ? unique : several);
         }

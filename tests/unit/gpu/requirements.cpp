@@ -211,20 +211,20 @@ TEST_F(GpuRequirements, FamiliesThatShareResidentResultsMustExist) {
     const std::uint32_t own = host_.device().queue_family;
     const std::uint32_t families[] = {own, own, 7};
     HostDevice host = host_.device();
-    host.resident_families = families;
-    host.resident_family_count = 2;
-    EXPECT_TRUE(gpu::Device(host).resident_families().empty()) << "one family shares with none";
-    host.resident_family_count = 3;
+    host.reader_families = families;
+    host.reader_family_count = 2;
+    EXPECT_TRUE(gpu::Device(host).reader_families().empty()) << "one family shares with none";
+    host.reader_family_count = 3;
     const Status status = status_of(host);
     EXPECT_EQ(status.code(), StatusCode::invalid_settings);
-    EXPECT_NE(status.message().find("HostDevice::resident_families[2] is 7"), std::string::npos)
+    EXPECT_NE(status.message().find("HostDevice::reader_families[2] is 7"), std::string::npos)
         << status.message();
     Lies lies;
     lies.queue_families = [](std::vector<VkQueueFamilyProperties>& all) {
         all.resize(8, all.front());
     };
     const FakeLoader fake(host, lies);
-    EXPECT_EQ(gpu::Device(fake.host()).resident_families(), (std::vector<std::uint32_t>{own, 7}));
+    EXPECT_EQ(gpu::Device(fake.host()).reader_families(), (std::vector<std::uint32_t>{own, 7}));
 }
 
 TEST_F(GpuRequirements, EveryMissingEntryPointIsNamed) {

@@ -43,7 +43,7 @@ TEST(ToolsJson, PenetrationHasTheKeysOfTheContract) {
     fill_summary(result);
     result.count = 1;
     result.deepest = {{0.1, 0.2}, 0.3, {0.6, 0.8}, {0.28, 0.44}, {Feature::Kind::vertex, 7}, false};
-    result.records = {result.deepest};
+    result.points = {result.deepest};
     const json answer = written({}, result);
     EXPECT_EQ(answer["query"], "penetration");
     EXPECT_EQ(answer["tolerance"], 0.1);

@@ -36,13 +36,13 @@ TEST(MakeEmpty, OfPenetration) {
     auto& before = std::get<PenetrationResult>(any);
     before.count = 7;
     before.deepest.depth = 5.0;
-    before.records.resize(7);
+    before.points.resize(7);
     const auto& result = make_empty<PenetrationResult>(any);
     expect_empty_summary(result);
     EXPECT_EQ(result.count, 0U);
     EXPECT_EQ(result.deepest.depth, 0.0);
-    EXPECT_TRUE(result.records.empty());
-    EXPECT_GE(result.records.capacity(), 7U) << "its memory is kept";
+    EXPECT_TRUE(result.points.empty());
+    EXPECT_GE(result.points.capacity(), 7U) << "its memory is kept";
 }
 
 TEST(MakeEmpty, OfIntersection) {
@@ -91,12 +91,12 @@ TEST(MakeEmpty, OfContacts) {
     auto& before = std::get<ContactResult>(any);
     before.count = 7;
     before.manifold.resize(2);
-    before.records.resize(7);
+    before.points.resize(7);
     const auto& result = make_empty<ContactResult>(any);
     expect_empty_summary(result);
     EXPECT_EQ(result.count, 0U);
     EXPECT_TRUE(result.manifold.empty());
-    EXPECT_TRUE(result.records.empty());
+    EXPECT_TRUE(result.points.empty());
 }
 
 TEST(MakeEmpty, OfTheOthers) {

@@ -182,7 +182,7 @@ TEST_F(PlannerTest, RecordsThatMayTakeTooMuchAreCountedClosely) {
     run(std::vector<AnyQuery>(many / 2, query));
     EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     EXPECT_THROW(run(std::vector<AnyQuery>(4 * many, query)), StatusException);
-    query.records = false;
+    query.summary_only = true;
     run(std::vector<AnyQuery>(4 * many, query));
     EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     EXPECT_EQ(plan_.result_bytes, 0.0);
@@ -194,7 +194,7 @@ TEST_F(PlannerTest, AsManyJobsAnswerAsThereIsRoomFor) {
     run({penetration_});
     EXPECT_GT(plan_.max_jobs, 100U);
     penetration_.tolerance = 0.001;
-    penetration_.records = false;
+    penetration_.summary_only = true;
     run({penetration_});
     EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     EXPECT_GE(plan_.max_jobs, 1U);
@@ -256,7 +256,7 @@ TEST_F(PlannerTest, LimitsAreToldInUnitsInWhichTheyAreNotZero) {
 TEST_F(PlannerTest, ResidentSamplesAreGivenAllTheRoomOfTheBufferButTheSummarys) {
     IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 0.1};
     query.technique = Technique::raster;
-    query.resident = query.resident_samples = true;
+    query.on_device = query.samples_on_device = true;
     const auto status_with_room = [&](double cells, std::uint64_t less) {
         limits_.largest_range = sizeof(IntersectionSummaryData) +
                                 static_cast<std::uint64_t>(cells) * sizeof(IntersectionSampleData) -
@@ -319,7 +319,7 @@ TEST_F(PlannerTest, TheDeviceSearchesWhatFitsOnceItIsCountedClosely) {
     EXPECT_LT(plan_.result_bytes, static_cast<double>(limits_.memory) / 10.0);
     penetration_.b.pose = {{1.0, 1.0}, 0.0};
     EXPECT_THROW(run(std::vector<AnyQuery>(4 * many, penetration_)), StatusException);
-    penetration_.records = false;
+    penetration_.summary_only = true;
     run(std::vector<AnyQuery>(4 * many, penetration_));
     EXPECT_EQ(plan_.searched.size(), 4 * many);
     EXPECT_EQ(plan_.result_bytes, 0.0);

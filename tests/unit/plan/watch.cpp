@@ -20,7 +20,7 @@ std::vector<TileBatch> tile_batches_of(
         query.technique = Technique::raster;
         query.b.pose.translation = {5, 0};
         query.tolerance = tolerance;
-        query.records = false;
+        query.summary_only = true;
         query.strategy = strategy;
         queries.emplace_back(query);
     }

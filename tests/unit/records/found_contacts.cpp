@@ -43,12 +43,12 @@ protected:
         contacts_.decide_normals([&]() -> narrowphase::Boundary& { return boundary_of_b_; });
     }
 
-    std::vector<ContactRecord> written() {
+    std::vector<ContactPoint> written() {
         ContactResult result;
         result.cell = 0.1;
         contacts_.write(a_, b_, ContactQuery{}, result);
-        EXPECT_EQ(result.count, result.records.size());
-        return result.records;
+        EXPECT_EQ(result.count, result.points.size());
+        return result.points;
     }
 
     Polygon a_;
@@ -58,9 +58,9 @@ protected:
 };
 
 TEST_F(FoundContactsTest, NormalsAreAnalyticAndUniqueAsFound) {
-    const std::vector<ContactRecord> records = written();
+    const std::vector<ContactPoint> records = written();
     ASSERT_EQ(records.size(), 4U);
-    for (const ContactRecord& record : records) {
+    for (const ContactPoint& record : records) {
         EXPECT_EQ(record.normal, (Vector2{0.0, 1.0}));
         EXPECT_TRUE(record.unique);
     }
@@ -70,7 +70,7 @@ TEST_F(FoundContactsTest, AGradientGivesTheNormalItsDirection) {
     const std::vector<Vector2> gradients{{0.6, 0.8}, {0.0, 0.5}, {-0.003, 0.004}, {1.0, 0.0}};
     contacts_.set_normals(gradients);
     const std::vector<Vector2> normals{{0.6, 0.8}, {0.0, 1.0}, {-0.6, 0.8}, {1.0, 0.0}};
-    const std::vector<ContactRecord> records = written();
+    const std::vector<ContactPoint> records = written();
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_NEAR(records[i].normal.x, normals[i].x, 1e-15) << i;
         EXPECT_NEAR(records[i].normal.y, normals[i].y, 1e-15) << i;
@@ -82,7 +82,7 @@ TEST_F(FoundContactsTest, WhereTheGradientVanishesTheNormalStaysAndIsOneOfSevera
     // Between walls, on the medial axis: of A's second contact and B's first.
     const std::vector<Vector2> gradients{{0.6, 0.8}, {0.0, 1e-4}, {0.0, 0.0}, {0.0, 2e-3}};
     contacts_.set_normals(gradients);
-    const std::vector<ContactRecord> records = written();
+    const std::vector<ContactPoint> records = written();
     EXPECT_TRUE(records[0].unique);
     EXPECT_FALSE(records[1].unique);
     EXPECT_EQ(records[1].normal, (Vector2{0.0, 1.0}));

@@ -18,8 +18,8 @@ constexpr double spacing = 0.1;
 
 TransformedContact contact_at(const Vector& point, double angle, const plan::BoundaryPoint& place,
                               double distance = 0.01) {
-    ContactRecord record;
-    record.point = geometry::to_public(point);
+    ContactPoint record;
+    record.position = geometry::to_public(point);
     record.normal = {std::cos(angle), std::sin(angle)};
     record.distance = distance;
     record.nearest = {point.x() - distance * record.normal.x,
@@ -138,12 +138,12 @@ TEST(Manifold, TheExtremeIsTheDeepestOrTheClosest) {
     const Polygon bar = long_bar();
     std::vector<TransformedContact> contacts = along_the_bar(3.0, 7.0);
     contacts[11].record.distance = 0.005;
-    EXPECT_EQ(clusters_of(bar, contacts)[0].extreme.point, contacts[11].record.point);
+    EXPECT_EQ(clusters_of(bar, contacts)[0].extreme.position, contacts[11].record.position);
     contacts[20].record.inside = true;
     contacts[20].record.distance = 0.001;
     contacts[30].record.inside = true;
     contacts[30].record.distance = 0.02;
-    EXPECT_EQ(clusters_of(bar, contacts)[0].extreme.point, contacts[30].record.point);
+    EXPECT_EQ(clusters_of(bar, contacts)[0].extreme.position, contacts[30].record.position);
 }
 
 TEST(Manifold, ContactsOfBJoinTheClusterTheyFaceOrMakeTheirOwn) {

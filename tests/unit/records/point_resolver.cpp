@@ -128,12 +128,12 @@ TEST_F(PointResolverTest, ListsPenetrationsAndTheFirstOfTheDeepest) {
         words.push_back((vertex == 3 ? plan::point_resolved : found) | 1U);
     }
     resolver_.begin(planned_, {.points = points_, .words = words});
-    std::vector<PenetrationRecord> records(10);
+    std::vector<PenetratingPoint> records(10);
     EXPECT_EQ(resolver_.list_penetrations(0.01, records), 1U);
     ASSERT_EQ(records.size(), 3U);
     EXPECT_DOUBLE_EQ(records[0].depth, 0.5);
     EXPECT_DOUBLE_EQ(records[1].depth, 1.0);
-    EXPECT_DOUBLE_EQ(records[1].point.y, 1.0);
+    EXPECT_DOUBLE_EQ(records[1].position.y, 1.0);
     EXPECT_DOUBLE_EQ(records[2].depth, 1.0);
 }
 

@@ -37,7 +37,7 @@ PairQuestion any_question(Random& random) {
     constexpr std::array goals{PairGoal::penetrations, PairGoal::contacts, PairGoal::tests};
     PairQuestion question{.goal = goals[static_cast<std::size_t>(random.whole(0, 3))]};
     question.records = question.goal != PairGoal::tests && random.whole(0, 2) == 0;
-    question.resident = question.goal == PairGoal::penetrations && random.whole(0, 2) == 0;
+    question.on_device = question.goal == PairGoal::penetrations && random.whole(0, 2) == 0;
     return question;
 }
 
@@ -49,7 +49,7 @@ public:
           question_(any_question(random_)),
           world_(question_, {}),
           recorded_(world_),
-          parts_(question_.kind(), question_.resident) {
+          parts_(question_.kind(), question_.on_device) {
         resize(400);
         // What parts have room for at least, before anything was counted.
         const PairBytes least = world_.bytes({64, 64, 64, 64, 64, 64});
@@ -77,7 +77,7 @@ public:
             EXPECT_EQ(error.status().code(), StatusCode::too_large);
             EXPECT_TRUE(is_too_large(world_) || is_too_large(recorded_))
                 << error.status().message();
-            parts_ = PairParts(question_.kind(), question_.resident);  // as a table starts anew
+            parts_ = PairParts(question_.kind(), question_.on_device);  // as a table starts anew
             has_results_ = false;
         }
     }

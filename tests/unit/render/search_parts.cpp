@@ -41,7 +41,7 @@ std::string refusal(const Searched& world, PairParts& parts, const PairLimits& l
 
 TEST(PairParts, OneHasAllInstancesIfItFits) {
     const Searched world = even_world(1000, 40);
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     EXPECT_EQ(world.search(parts, no_limits), 3) << "of pairs, of the rest, and with room for all";
     ASSERT_EQ(parts.count(), 1U);
     EXPECT_EQ(parts[0].needed, world.counts(0, 1000));
@@ -51,7 +51,7 @@ TEST(PairParts, OneHasAllInstancesIfItFits) {
 TEST(PairParts, AreAsManyAsTheReachOfShadersAsksFor) {
     const Searched world = even_world(1000, 40);
     const std::uint64_t all = world.bytes(world.counts(0, 1000)).largest();
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     world.search(parts, {all / 3, everything});
     EXPECT_GE(parts.count(), 4U);
     EXPECT_LE(parts.count(), 6U);
@@ -62,7 +62,7 @@ TEST(PairParts, AreAsManyAsTheMemoryAsksFor) {
     const Searched world = even_world(1000, 40);
     const PairBytes all = world.bytes(world.counts(0, 1000));
     const std::uint64_t memory = all.found() + all.scratch / 2;
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     world.search(parts, {everything, memory});
     EXPECT_GE(parts.count(), 2U);
     EXPECT_LE(parts.count(), 4U);
@@ -76,7 +76,7 @@ TEST(PairParts, ThatAreUnevenAreDividedAgain) {
         world.instances()[i] = counts_of(3000);
     }
     const std::uint64_t reach = world.bytes(world.counts(0, 1000)).largest() / 4;
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     world.search(parts, {reach, everything});
     std::size_t with_many = 0;
     for (std::size_t i = 0; i < parts.count(); ++i) {
@@ -89,7 +89,7 @@ TEST(PairParts, ThatAreUnevenAreDividedAgain) {
 TEST(PairParts, AreJoinedIfTwiceAsMuchFits) {
     const Searched crowd = even_world(400, 100);
     const PairLimits limits{crowd.bytes(crowd.counts(0, 400)).largest() / 3, everything};
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     crowd.search(parts, limits);
     ASSERT_GE(parts.count(), 4U);
     EXPECT_FALSE(parts.join(limits)) << "it has just been divided";
@@ -107,7 +107,7 @@ TEST(PairParts, AreJoinedIfTwiceAsMuchFits) {
 TEST(PairParts, AreJoinedWhereTheLeastIsNeeded) {
     Searched world = even_world(900, 100);
     const PairLimits limits{world.bytes(world.counts(0, 900)).largest() / 2, everything};
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     world.search(parts, limits);
     ASSERT_GE(parts.count(), 3U);
     const std::vector<std::uint32_t> ends{parts[0].end, parts[1].end, parts[2].end};
@@ -123,12 +123,12 @@ TEST(PairParts, AreJoinedWhereTheLeastIsNeeded) {
 /// Or they would be joined and divided in turns.
 TEST(PairParts, ThatStayOnTheDeviceAreNotJoinedWithoutMemoryForThat) {
     PairQuestion question = penetrations;
-    question.resident = true;
+    question.on_device = true;
     const Searched world = even_world(1000, 40, question);
     const PairCounts all = world.counts(0, 1000);
     const PairBytes bytes = world.bytes(all);
     const PairBytes resident = world.resident_bytes(all);
-    PairParts parts(question.kind(), question.resident);
+    PairParts parts(question.kind(), question.on_device);
     const auto limits_of = [&](double share) {
         const double more = 1.125 * static_cast<double>(bytes.found() + resident.found());
         return PairLimits{everything, static_cast<std::uint64_t>(
@@ -150,7 +150,7 @@ TEST(PairParts, ThatStayOnTheDeviceAreNotJoinedWithoutMemoryForThat) {
 TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
     const Searched world = even_world(1000, 40);
     const PairCounts all = world.counts(0, 1000);
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     world.search(parts, no_limits);
     const PairBytes bytes = world.bytes(all);
     const std::uint64_t memory = bytes.scratch + bytes.found();
@@ -160,7 +160,7 @@ TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
         << "an eighth is to spare";
 
     Searched one = even_world(1, 4000);
-    PairParts of_one(penetrations.kind(), penetrations.resident);
+    PairParts of_one(penetrations.kind(), penetrations.on_device);
     one.search(of_one, no_limits);
     const std::uint64_t exactly = one.bytes(one.counts(0, 1)).largest();
     EXPECT_EQ(one.search(of_one, {exactly, everything}), 1);
@@ -171,7 +171,7 @@ TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
 TEST(PairParts, FollowTheNumberOfInstances) {
     const Searched world = even_world(1000, 40);
     const PairLimits limits{world.bytes(world.counts(0, 1000)).largest() / 4, everything};
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     EXPECT_TRUE(parts.set_instances(1000));
     EXPECT_FALSE(parts.set_instances(1000));
     world.search(parts, limits);
@@ -198,7 +198,7 @@ TEST(PairParts, OfFewerInstancesThanWereCountedAreNotRefused) {
     const Searched world = even_world(1000, 400);
     const Searched few = even_world(2, 400);
     const PairLimits limits{std::uint64_t{1} << 22U, everything};
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     static_cast<void>(parts.set_instances(1000));
     parts.fit(limits);
     parts.grow(0, world.counts(0, 1000));
@@ -211,7 +211,7 @@ TEST(PairParts, AreNotRefusedForWhatWasEstimated) {
     const Searched world(penetrations, {{0, 0, 0, 45000, 0, 0}, {200000, 0, 0, 10, 0, 0}});
     const std::uint64_t largest = std::max(world.bytes(world.counts(0, 1)).largest(),
                                            world.bytes(world.counts(1, 2)).largest());
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     world.search(parts, {largest, everything});
     EXPECT_EQ(parts.count(), 2U);
 }
@@ -222,7 +222,7 @@ TEST(PairParts, AreNotRefusedForEstimatesOfAllTogether) {
     const PairBytes first = world.bytes(world.counts(0, 1));
     const PairBytes second = world.bytes(world.counts(1, 2));
     const std::uint64_t scratch = std::max(first.scratch, second.scratch);
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     world.search(parts, {everything, scratch + first.found() + second.found()});
     EXPECT_EQ(parts.count(), 2U);
 }
@@ -231,7 +231,7 @@ TEST(PairParts, SayWhatIsTooLarge) {
     const Searched world = even_world(3, 4000);
     const PairBytes bytes = world.bytes(counts_of(4000));
     const std::uint64_t reach = bytes.largest() - 1;
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     EXPECT_EQ(refusal(world, parts, {reach, everything}),
               "the pairs of one instance need " + std::to_string(reach + 1) +
                   " bytes on the device in one buffer, of which shaders reach " +
@@ -242,7 +242,7 @@ TEST(PairParts, SayThatAllOfThemAreTooLarge) {
     const Searched world = even_world(1, 4000);
     const PairBytes bytes = world.bytes(world.counts(0, 1));
     const std::uint64_t all = bytes.scratch + bytes.found();
-    PairParts parts(penetrations.kind(), penetrations.resident);
+    PairParts parts(penetrations.kind(), penetrations.on_device);
     world.search(parts, no_limits);
     EXPECT_EQ(refusal(world, parts, {everything, all}), "");
     EXPECT_EQ(refusal(world, parts, {everything, all - 1}),
@@ -252,10 +252,10 @@ TEST(PairParts, SayThatAllOfThemAreTooLarge) {
 
 TEST(PairParts, SayWhatThatStaysIsTooLarge) {
     PairQuestion question = penetrations;
-    question.resident = true;
+    question.on_device = true;
     const Searched world = even_world(1000, 40, question);
     const std::uint64_t records = world.resident_bytes(world.counts(0, 1000)).records;
-    PairParts parts(question.kind(), question.resident);
+    PairParts parts(question.kind(), question.on_device);
     world.search(parts, no_limits);
     const std::uint64_t reach = records - 1;
     EXPECT_EQ(refusal(world, parts, {reach, everything}),

@@ -54,7 +54,7 @@ public:
     }
     /// Of the results of a search that stay on the device.
     [[nodiscard]] PairBytes resident_bytes(const PairCounts& capacities) const {
-        if (!question_.resident) {
+        if (!question_.on_device) {
             return {};
         }
         return {0, PairOutputs::bytes_of_records(capacities[plan::record_total]),

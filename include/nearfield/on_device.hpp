@@ -8,15 +8,15 @@
 #include <cstdint>
 
 /// \file
-/// Resident outputs: results that stay on the device (Context::resident()), for the host's own
-/// shaders. The GLSL header nearfield/nearfield.glsl declares the same structures.
+/// Outputs on the device: results that stay on the device (Context::on_device()), for the host's
+/// own shaders. The GLSL header nearfield/nearfield.glsl declares the same structures.
 ///
-/// A query may name images or a buffer of the host to write to (ResidentFieldTarget,
-/// ResidentBufferTarget); what follows is about nearfield's own.
+/// A query may name images or a buffer of the host to write to (FieldTarget,
+/// BufferTarget); what follows is about nearfield's own.
 ///
 /// Images and buffers belong to the batch of the query. Their contents are valid once the device
 /// has executed the batch. Commands that the host submits to the same queue after Context::submit()
-/// see them without a barrier, in the stages and by the accesses that ResidentState states. Other
+/// see them without a barrier, in the stages and by the accesses that OutputState states. Other
 /// stages, accesses, layouts or queues take a barrier, semaphore or ownership transfer by the host,
 /// which must return the images to the stated state.
 ///
@@ -25,8 +25,8 @@
 
 namespace nearfield {
 
-/// The synchronisation state in which the host's commands find a resident output.
-struct ResidentState {
+/// The synchronisation state in which the host's commands find a output on the device.
+struct OutputState {
     /// Vertex, fragment and compute shader; of buffers also vertex input and indirect commands.
     /// Only those that the host's queue family has.
     VkPipelineStageFlags stages = 0;
@@ -34,7 +34,7 @@ struct ResidentState {
     /// commands, likewise.
     VkAccessFlags access = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< of images
-    /// The owner; VK_QUEUE_FAMILY_IGNORED if shared with HostDevice::resident_families.
+    /// The owner; VK_QUEUE_FAMILY_IGNORED if shared with HostDevice::reader_families.
     std::uint32_t queue_family = 0;
 };
 
@@ -69,12 +69,12 @@ inline constexpr TargetState former_readers{read_by_shaders.stages, read_by_shad
 /// what is stated here.
 ///
 /// Borrowed: image and view must exist until the batch is collected. Nothing is kept of them.
-struct ResidentImageTarget {
+struct ImageTarget {
     VkImage image = VK_NULL_HANDLE;  ///< null: an image of nearfield's own
     /// What is written: one level and one layer of the image, as VK_IMAGE_VIEW_TYPE_2D, in `format`
     /// and without a swizzle.
     VkImageView view = VK_NULL_HANDLE;
-    VkFormat format = VK_FORMAT_UNDEFINED;  ///< as ResidentField states for each image
+    VkFormat format = VK_FORMAT_UNDEFINED;  ///< as FieldOnDevice states for each image
     VkExtent2D extent{};                  ///< of the level, texels: as large as the field or larger
     VkImageUsageFlags usage = 0;          ///< contains VK_IMAGE_USAGE_STORAGE_BIT
     std::uint32_t level = 0;              ///< of `view`
@@ -83,18 +83,18 @@ struct ResidentImageTarget {
     TargetState after = read_by_shaders;  ///< needs VK_IMAGE_USAGE_SAMPLED_BIT as it is
 };
 
-/// Where a resident field goes (DistanceFieldQuery::target): one image or both, in the formats of
-/// ResidentField. Cell (0, 0) is texel (0, 0). The header stays nearfield's own. The image of the
-/// features must be null if DistanceFieldQuery::resident_features is false (invalid_query).
-struct ResidentFieldTarget {
-    ResidentImageTarget signed_distance = {};  ///< VK_FORMAT_R32_SFLOAT
-    ResidentImageTarget feature = {};          ///< VK_FORMAT_R32_UINT
+/// Where a field on the device goes (DistanceFieldQuery::target): one image or both, in the formats
+/// of FieldOnDevice. Cell (0, 0) is texel (0, 0). The header stays nearfield's own. The image of
+/// the features must be null if DistanceFieldQuery::features_on_device is false (invalid_query).
+struct FieldTarget {
+    ImageTarget signed_distance = {};  ///< VK_FORMAT_R32_SFLOAT
+    ImageTarget feature = {};          ///< VK_FORMAT_R32_UINT
 };
 
-/// Where resident records or samples go (PenetrationQuery::target and others): a range of a buffer
-/// of the host's, on the context's device. Only as much is written as resident() states. The header
-/// stays nearfield's own. Borrowed until the batch is collected; nothing is kept of it.
-struct ResidentBufferTarget {
+/// Where points on the device or samples go (PenetrationQuery::target and others): a range of a
+/// buffer of the host's, on the context's device. Only as much is written as on_device() states.
+/// The header stays nearfield's own. Borrowed until the batch is collected; nothing is kept of it.
+struct BufferTarget {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< not null
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
     VkDeviceSize size = 0;             ///< bytes from `offset` on that may be written
@@ -103,47 +103,47 @@ struct ResidentBufferTarget {
     TargetState after = read_by_shaders;  ///< its layout is ignored
 };
 
-/// Where the header of a resident output lies (ResidentHeaderData): what there is, for shaders, and
+/// Where the header of a output on the device lies (HeaderData): what there is, for shaders, and
 /// the arguments of vkCmdDrawIndirect and vkCmdDispatchIndirect, written by the device. The buffer
 /// may be bound as a storage, indirect or vertex buffer, and copied from. Its state is the one that
-/// ResidentState describes for buffers, also where the output itself goes to the host's buffer.
-struct ResidentHeader {
+/// OutputState describes for buffers, also where the output itself goes to the host's buffer.
+struct HeaderOnDevice {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
 };
 
 /// Which of a context's resident handles these are. A host that writes descriptor sets once keeps
 /// one set for each slot, and writes it again only if the revision is another one.
-struct ResidentSlot {
+struct OutputSlot {
     /// The batch in flight that owns them, below Settings::batches_in_flight: two batches in flight
     /// at the same time have different ones.
     std::uint32_t index = 0;
-    /// Changes whenever a handle or an offset of any resident output of the slot does: when one
-    /// grows beyond what was reserved, when there are more of them, and by Context::trim(). Images
-    /// and buffers of the host do not count. Sizes and capacities are those of a batch and change
-    /// without it: a descriptor that is to last takes VK_WHOLE_SIZE.
+    /// Changes whenever a handle or an offset of any output on the device of the slot does: when
+    /// one grows beyond what was reserved, when there are more of them, and by Context::trim().
+    /// Images and buffers of the host do not count. Sizes and capacities are those of a batch and
+    /// change without it: a descriptor that is to last takes VK_WHOLE_SIZE.
     std::uint64_t revision = 0;
 };
 
 /// One image of a field, with a view of all of it.
-struct ResidentImage {
+struct ImageOnDevice {
     VkImage image = VK_NULL_HANDLE;         ///< one layer, one level; borrowed. Or the host's
     VkImageView view = VK_NULL_HANDLE;      ///< of the whole image, or the host's; borrowed
     VkFormat format = VK_FORMAT_UNDEFINED;  ///< of image and view
 };
 
-/// A distance field (DistanceFieldQuery::resident). Texel (column, row) is the cell with the centre
-/// origin + (column + 1/2, row + 1/2) * cell; row 0 is the lowest. The images can be sampled and
-/// copied from. Linear filtering of the signed distance is optional in Vulkan
+/// A distance field (DistanceFieldQuery::on_device). Texel (column, row) is the cell with the
+/// centre origin + (column + 1/2, row + 1/2) * cell; row 0 is the lowest. The images can be sampled
+/// and copied from. Linear filtering of the signed distance is optional in Vulkan
 /// (VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT of R32_SFLOAT); nearfield_signed_distance()
 /// of the GLSL header does not need it.
-struct ResidentField {
+struct FieldOnDevice {
     /// VK_FORMAT_R32_SFLOAT: signed distance in world units, negative inside B; the same numbers as
     /// DistanceFieldResult::values.
-    ResidentImage signed_distance;
-    /// VK_FORMAT_R32_UINT: id of the nearest feature of B's boundary (resident_feature). Null
-    /// handles if DistanceFieldQuery::resident_features is false.
-    ResidentImage feature;
+    ImageOnDevice signed_distance;
+    /// VK_FORMAT_R32_UINT: id of the nearest feature of B's boundary (feature_bits). Null
+    /// handles if DistanceFieldQuery::features_on_device is false.
+    ImageOnDevice feature;
     std::uint32_t width = 0;   ///< cells along x
     std::uint32_t height = 0;  ///< cells along y
     /// Size of the images that are nearfield's own, at least width x height; texels beyond the
@@ -157,13 +157,13 @@ struct ResidentField {
     /// more than DistanceFieldResult::error_bound.
     double error_bound = 0.0;
     /// Once the device has executed the batch; of the images that are nearfield's own.
-    ResidentState state;
-    ResidentHeader header;  ///< of all cells
-    ResidentSlot slot;      ///< for hosts that keep their descriptor sets
+    OutputState state;
+    HeaderOnDevice header;  ///< of all cells
+    OutputSlot slot;        ///< for hosts that keep their descriptor sets
 };
 
-/// The records of a penetration or contact query (PenetrationQuery::resident,
-/// ContactQuery::resident): a buffer range with a SummaryData, then space for `capacity` records
+/// The records of a penetration or contact query (PenetrationQuery::on_device,
+/// ContactQuery::on_device): a buffer range with a SummaryData, then space for `capacity` records
 /// (RecordData); the summary has their number. The buffer may be bound as a storage buffer at this
 /// offset, or as a vertex or indirect buffer, and copied from.
 ///
@@ -173,7 +173,7 @@ struct ResidentField {
 /// for every point examined, so no record is ever dropped.
 ///
 /// Each record is the single-precision version of the record that the CPU computes for the same
-/// point (PenetrationRecord, ContactRecord). Where both exist they name the same edge, with two
+/// point (PenetratingPoint, ContactPoint). Where both exist they name the same edge, with two
 /// exceptions:
 /// - If the nearest point is closer to a vertex than `error_bound`, one may name that vertex and
 ///   the other an adjacent edge.
@@ -182,8 +182,8 @@ struct ResidentField {
 ///
 /// A record may exist on one side only if the point's distance differs from the contact distance by
 /// at most `error_bound`, or if the point is so close to the boundary that it counts as touching
-/// (resident_flags::touching).
-struct ResidentRecords {
+/// (point_flags::touching).
+struct PointsOnDevice {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
     VkDeviceSize size = 0;             ///< of the range, in bytes, at the poses of the query
@@ -198,12 +198,12 @@ struct ResidentRecords {
     /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
     /// is larger.
     double error_bound = 0.0;
-    ResidentState state;    ///< once the device has executed the batch; or as the host asked
-    ResidentHeader header;  ///< of the records
-    ResidentSlot slot;      ///< for hosts that keep their descriptor sets
+    OutputState state;      ///< once the device has executed the batch; or as the host asked
+    HeaderOnDevice header;  ///< of the records
+    OutputSlot slot;        ///< for hosts that keep their descriptor sets
 };
 
-/// The samples of an intersection query (IntersectionQuery::resident): a buffer range with an
+/// The samples of an intersection query (IntersectionQuery::on_device): a buffer range with an
 /// IntersectionSummaryData, then space for `capacity` samples (IntersectionSampleData); the summary
 /// has their number. The buffer may be bound as a storage buffer at this offset, or as a vertex or
 /// indirect buffer, and copied from.
@@ -211,13 +211,13 @@ struct ResidentRecords {
 /// The samples are those of IntersectionResult::samples, in the same order: by region, then row by
 /// row from the low corner. The CPU does not know their number before the batch is collected. There
 /// is space for every cell of every region, so no sample is ever dropped and no second submission
-/// is needed. If IntersectionQuery::resident_samples is false there is space for none, and the
+/// is needed. If IntersectionQuery::samples_on_device is false there is space for none, and the
 /// summary still counts them all.
 ///
 /// With D the greatest distance between two vertices of a shape, the smaller of both:
 /// IntersectionKind::volume_volume examines at most D / cell + 1 rows of as many cells, at any
 /// poses.
-struct ResidentSamples {
+struct SamplesOnDevice {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
     VkDeviceSize size = 0;             ///< of the range, in bytes
@@ -229,15 +229,15 @@ struct ResidentSamples {
     /// is the nearest in its chain of A's edges, up to twice this bound; the CPU may name another
     /// one as near.
     double error_bound = 0.0;
-    ResidentState state;    ///< once the device has executed the batch; or as the host asked
-    ResidentHeader header;  ///< of the samples
-    ResidentSlot slot;      ///< for hosts that keep their descriptor sets
+    OutputState state;      ///< once the device has executed the batch; or as the host asked
+    HeaderOnDevice header;  ///< of the samples
+    OutputSlot slot;        ///< for hosts that keep their descriptor sets
 };
 
-/// NearfieldHeader of the GLSL header (std430): the size of a resident output, where it lies, and
-/// what draws or dispatches as much as there is. `count` is the number of cells of a field, or of
-/// the records or samples stored.
-struct ResidentHeaderData {
+/// NearfieldHeader of the GLSL header (std430): the size of a output on the device, where it lies,
+/// and what draws or dispatches as much as there is. `count` is the number of cells of a field, or
+/// of the records or samples stored.
+struct HeaderData {
     VkDrawIndirectCommand points{};      ///< one vertex for each, in one instance
     VkDrawIndirectCommand quads{};       ///< six vertices and one instance for each; a field: one
     VkDispatchIndirectCommand groups{};  ///< of 64 threads, one thread for each; a field: 8 x 8
@@ -250,38 +250,36 @@ struct ResidentHeaderData {
     std::uint32_t width = 0;     ///< cells along x of a field; otherwise 0
     std::uint32_t height = 0;    ///< cells along y of a field; otherwise 0
 };
-static_assert(sizeof(ResidentHeaderData) == 72 && offsetof(ResidentHeaderData, quads) == 16 &&
-              offsetof(ResidentHeaderData, groups) == 32 &&
-              offsetof(ResidentHeaderData, count) == 44 &&
-              offsetof(ResidentHeaderData, origin) == 48 &&
-              offsetof(ResidentHeaderData, overflow) == 60);
+static_assert(sizeof(HeaderData) == 72 && offsetof(HeaderData, quads) == 16 &&
+              offsetof(HeaderData, groups) == 32 && offsetof(HeaderData, count) == 44 &&
+              offsetof(HeaderData, origin) == 48 && offsetof(HeaderData, overflow) == 60);
 
 /// A feature id: a word that names the nearest part of a boundary, with two flags.
-namespace resident_feature {
+namespace feature_bits {
 inline constexpr std::uint32_t index_mask = 0x0fffffff;  ///< index of the edge or vertex
 inline constexpr std::uint32_t vertex = 1U << 28U;       ///< set: a vertex; clear: an edge
-inline constexpr std::uint32_t unique = 1U << 30U;       ///< as PenetrationRecord::unique
+inline constexpr std::uint32_t unique = 1U << 30U;       ///< as PenetratingPoint::unique
 /// The place lies inside the shape; that of a record, deeper than d/1024.
 inline constexpr std::uint32_t inside = 1U << 31U;
-}  // namespace resident_feature
+}  // namespace feature_bits
 
 /// The bits of RecordData::flags.
-namespace resident_flags {
+namespace point_flags {
 /// A contact of B's boundary, whose nearest point and feature are on A.
 inline constexpr std::uint32_t on_b = 1;
 /// Too close to the boundary for single precision to tell inside from outside: the normal is that
 /// of the edge, or (0, 0) if the edge has no length (repeated vertices).
 inline constexpr std::uint32_t touching = 2;
-}  // namespace resident_flags
+}  // namespace point_flags
 
 /// SummaryData::deepest if there is no record.
-inline constexpr std::uint32_t no_record = UINT32_MAX;
+inline constexpr std::uint32_t no_point = UINT32_MAX;
 
-/// NearfieldSummary of the GLSL header (std430). The box is relative to ResidentRecords::origin.
+/// NearfieldSummary of the GLSL header (std430). The box is relative to PointsOnDevice::origin.
 struct SummaryData {
-    std::uint32_t count = 0;            ///< number of records
-    std::uint32_t capacity = 0;         ///< as ResidentRecords::capacity
-    std::uint32_t deepest = no_record;  ///< index of the first record of the greatest depth
+    std::uint32_t count = 0;           ///< number of records
+    std::uint32_t capacity = 0;        ///< as PointsOnDevice::capacity
+    std::uint32_t deepest = no_point;  ///< index of the first record of the greatest depth
     float depth = 0.0F;  ///< its depth: distance inside the other shape, negative outside
     float low[2]{};      ///< bounding box of all records' points, low corner; valid if count > 0
     float high[2]{};     ///< its high corner
@@ -289,16 +287,16 @@ struct SummaryData {
 static_assert(sizeof(SummaryData) == 32 && offsetof(SummaryData, deepest) == 8 &&
               offsetof(SummaryData, low) == 16 && offsetof(SummaryData, high) == 24);
 
-/// NearfieldRecord of the GLSL header (std430). Positions are relative to ResidentRecords::origin.
+/// NearfieldRecord of the GLSL header (std430). Positions are relative to PointsOnDevice::origin.
 struct RecordData {
-    float point[2]{};    ///< on the boundary of A, or of B (resident_flags::on_b)
+    float point[2]{};    ///< on the boundary of A, or of B (point_flags::on_b)
     float nearest[2]{};  ///< the nearest point of the other shape's boundary
     /// Unit vector that points out of B, towards increasing signed distance; see
-    /// resident_flags::touching. For a penetrating point, the direction out of B.
+    /// point_flags::touching. For a penetrating point, the direction out of B.
     float normal[2]{};
     float distance = 0.0F;      ///< from `point` to `nearest`, world units, >= 0
-    std::uint32_t feature = 0;  ///< id of the feature that `nearest` lies on (resident_feature)
-    std::uint32_t flags = 0;    ///< resident_flags
+    std::uint32_t feature = 0;  ///< id of the feature that `nearest` lies on (feature_bits)
+    std::uint32_t flags = 0;    ///< point_flags
     std::uint32_t place = 0;    ///< index among the points examined: along A's rings, then B's
 };
 static_assert(sizeof(RecordData) == 40 && offsetof(RecordData, nearest) == 8 &&
@@ -310,10 +308,10 @@ static_assert(sizeof(RecordData) == 40 && offsetof(RecordData, nearest) == 8 &&
 inline constexpr std::uint32_t no_edge = UINT32_MAX;
 
 /// NearfieldIntersectionSummary of the GLSL header (std430). The box is relative to
-/// ResidentSamples::origin.
+/// SamplesOnDevice::origin.
 struct IntersectionSummaryData {
     std::uint32_t count = 0;     ///< number of samples found
-    std::uint32_t capacity = 0;  ///< as ResidentSamples::capacity
+    std::uint32_t capacity = 0;  ///< as SamplesOnDevice::capacity
     float area = 0.0F;           ///< count times the area of a cell, relative error at most 2^-21
     float cell = 0.0F;           ///< side of a cell, world units
     float low[2]{};              ///< bounding box of all samples, low corner; valid if count > 0
@@ -325,7 +323,7 @@ static_assert(sizeof(IntersectionSummaryData) == 32 &&
               offsetof(IntersectionSummaryData, high) == 24);
 
 /// NearfieldIntersectionSample of the GLSL header (std430). Positions are relative to
-/// ResidentSamples::origin.
+/// SamplesOnDevice::origin.
 struct IntersectionSampleData {
     float point[2]{};              ///< the centre of a cell
     std::uint32_t edge = no_edge;  ///< an edge of A nearby, if A takes part by its boundary

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nearfield/resident.hpp>
+#include <nearfield/on_device.hpp>
 #include <nearfield/shape.hpp>
 
 #include <vulkan/vulkan_core.h>
@@ -9,31 +9,31 @@
 #include <cstdint>
 
 /// \file
-/// Pairs of a world that stay on the device (PairTable::resident()), for the host's own
+/// Pairs of a world that stay on the device (PairTable::on_device()), for the host's own
 /// shaders. The GLSL header nearfield/nearfield.glsl declares the same structures.
 
 namespace nearfield {
 
-/// One of the arrays of ResidentPairs, from the start of a buffer on. The buffer may be bound as a
+/// One of the arrays of PairsOnDevice, from the start of a buffer on. The buffer may be bound as a
 /// storage, vertex or indirect buffer, and copied from.
-struct ResidentArray {
+struct ArrayOnDevice {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< borrowed
     VkDeviceSize size = 0;             ///< of the array, in bytes
     std::uint32_t capacity = 0;        ///< maximum number of elements
     /// How many there are. `overflow` is 1 if there was not enough room for the pairs, whose rows
     /// and records are then not all there; PairTable::collect() makes room and searches
     /// again, or, where the commands were recorded for the host, the next World::record() does.
-    ResidentHeader header;
+    HeaderOnDevice header;
 };
 
-/// The rows of a PairTable whose query is resident (PenetrationQuery::resident,
-/// ContactQuery::resident), as the device has found them, in ascending order as in the table.
+/// The rows of a PairTable whose query is resident (PenetrationQuery::on_device,
+/// ContactQuery::on_device), as the device has found them, in ascending order as in the table.
 /// Nothing of them is made exact: pairs that single precision cannot decide are there with a flag
-/// (resident_pair_flags), and it is for the host's shaders to count them or not.
+/// (pair_flags), and it is for the host's shaders to count them or not.
 ///
 /// Commands that the host submits to the same queue after World::submit() see them, as those of a
-/// batch (resident.hpp), and so do those that follow what World::record() has recorded. All handles
-/// hold until the table is submitted, updated or recorded again, or collected after
+/// batch (on_device.hpp), and so do those that follow what World::record() has recorded. All
+/// handles hold until the table is submitted, updated or recorded again, or collected after
 /// World::submit(), by when the device must be done with these commands; frames in flight have two
 /// tables, in turns.
 ///
@@ -46,16 +46,16 @@ struct ResidentArray {
 ///
 /// Where pairs of contacts are searched in parts (PairTable), a point may have two equal
 /// records, of which a pair names one.
-struct ResidentPairs {
-    ResidentArray pairs;         ///< of PairData
-    ResidentArray records;       ///< of PairRecordData
+struct PairsOnDevice {
+    ArrayOnDevice pairs;         ///< of PairData
+    ArrayOnDevice records;       ///< of PairRecordData
     Vector2 origin;              ///< of all positions, world coordinates
-    ResidentState state;         ///< once the device has executed the search
+    OutputState state;           ///< once the device has executed the search
     std::uint64_t revision = 0;  ///< changes whenever a handle or a size does
 };
 
 /// The bits of PairData::flags and PairRecordData::flags.
-namespace resident_pair_flags {
+namespace pair_flags {
 /// Of a record: too close to the other boundary, by about the error, for single precision to tell
 /// inside from outside; its normal is (0, 0).
 inline constexpr std::uint32_t touching = 2;
@@ -67,41 +67,41 @@ inline constexpr std::uint32_t undecided = 4;
 inline constexpr std::uint32_t uncertain = 8;
 /// Of a pair of contacts: the shapes intersect for certain.
 inline constexpr std::uint32_t intersects = 16;
-}  // namespace resident_pair_flags
+}  // namespace pair_flags
 
 /// NearfieldPair of the GLSL header (std430): a pair that is hit, or may be.
 struct PairData {
     std::uint32_t a = 0;      ///< index of the instance's handle (InstanceHandle::index)
     std::uint32_t b = 0;      ///< likewise
     std::uint32_t count = 0;  ///< of the records, those that count for certain
-    std::uint32_t flags = 0;  ///< resident_pair_flags
+    std::uint32_t flags = 0;  ///< pair_flags
     /// Consecutive records, of points of A's boundary. Penetrations: those without
-    /// resident_feature::inside do not count. Contacts: those farther than the contact distance do
+    /// feature_bits::inside do not count. Contacts: those farther than the contact distance do
     /// not.
-    std::uint32_t first_record = 0;
-    std::uint32_t record_count = 0;  ///< how many
-    std::uint32_t first_of_b = 0;    ///< contacts: those of points of B's boundary
-    std::uint32_t count_of_b = 0;    ///< likewise
-    /// Penetrations: the record of the greatest depth; no_record where it is not certain that there
+    std::uint32_t first_point = 0;
+    std::uint32_t point_count = 0;  ///< how many
+    std::uint32_t first_of_b = 0;   ///< contacts: those of points of B's boundary
+    std::uint32_t count_of_b = 0;   ///< likewise
+    /// Penetrations: the record of the greatest depth; no_point where it is not certain that there
     /// is one.
-    std::uint32_t deepest = no_record;
+    std::uint32_t deepest = no_point;
     float depth = 0.0F;  ///< its depth
 };
 static_assert(sizeof(PairData) == 40 && offsetof(PairData, flags) == 12 &&
-              offsetof(PairData, first_record) == 16 && offsetof(PairData, deepest) == 32);
+              offsetof(PairData, first_point) == 16 && offsetof(PairData, deepest) == 32);
 
 /// NearfieldPairRecord of the GLSL header (std430): a point of one shape's boundary and what is
-/// nearest to it of the other's. Positions are relative to ResidentPairs::origin.
+/// nearest to it of the other's. Positions are relative to PairsOnDevice::origin.
 struct PairRecordData {
     float point[2]{};    ///< on the boundary of the one shape
     float nearest[2]{};  ///< the nearest point of the other's boundary
-    /// Unit vector that points out of the other shape; (0, 0) with resident_pair_flags::touching.
+    /// Unit vector that points out of the other shape; (0, 0) with pair_flags::touching.
     float normal[2]{};
     float distance = 0.0F;  ///< from `point` to `nearest`, world units, >= 0
-    /// The edge that `nearest` lies on, with resident_feature::unique and inside; never a vertex.
+    /// The edge that `nearest` lies on, with feature_bits::unique and inside; never a vertex.
     std::uint32_t feature = 0;
     std::uint32_t edge = 0;   ///< that `point` lies on
-    std::uint32_t flags = 0;  ///< resident_pair_flags
+    std::uint32_t flags = 0;  ///< pair_flags
 };
 static_assert(sizeof(PairRecordData) == 40 && offsetof(PairRecordData, nearest) == 8 &&
               offsetof(PairRecordData, normal) == 16 && offsetof(PairRecordData, distance) == 24 &&
