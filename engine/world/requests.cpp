@@ -12,7 +12,7 @@ namespace {
 
 /// Questions from which on Technique::automatic asks a hardware device. On an H100, 1,000 questions
 /// about 42,000 instances that stand take 0.8 to 1.6 times as long as on the CPU, and 30,000 a
-/// tenth to a third (docs/measurements/device_queries.md).
+/// tenth to a third (docs/measurements/gpu.md).
 constexpr std::size_t paying_questions = 4096;
 
 }  // namespace

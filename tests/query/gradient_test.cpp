@@ -15,8 +15,7 @@ constexpr std::uint64_t seed = 31337;
 
 class Gradients : public FieldLaws {
 protected:
-    /// Records the cost of blending in the test's report: the figures in
-    /// docs/measurements/fields.md.
+    /// Records the cost of blending in the test's report.
     static void record_cost(const DistanceFieldResult& differences,
                             const DistanceFieldResult& blended) {
         double sum = 0.0;
