@@ -31,7 +31,7 @@ constexpr std::array<QueryKind, 10> query_kinds{{
      "A.geojson B.wkt -d 1 --pose-b 430,30,20"},
     {QueryType::distance_field, "The signed distance to B over a grid, negative inside B",
      "A.svg B.wkt -d 1 --rect -9,-9,9,9 --field f.npy"},
-    {QueryType::intersection_test, "Whether A and B share a point: exact, without a tolerance",
+    {QueryType::intersection_test, "Whether A and B share a point, up to rounding of vertices",
      "A.geojson B.wkt --pose-b 120,20,30"},
     {QueryType::time_of_impact, "When A and B first touch on the way to their end poses",
      "A.geojson B.wkt -d 0.01 --end-pose-a 400,0,90"},
@@ -47,7 +47,8 @@ const char* describe_tolerance(QueryType type) {
         case QueryType::intersection_test:
         case QueryType::containment:
             return "Tolerance, world units, > 0: curves become edges that are off by at "
-                   "most a sixteenth of it. Of no other use: the test is exact; default none";
+                   "most a sixteenth of it. It has no other use, since the answer holds up to the "
+                   "rounding of vertices; default none";
         case QueryType::time_of_impact:
             return "Tolerance, world units, > 0: no two points of the shapes move by more than "
                    "this against each other in the time that is left open";
