@@ -13,7 +13,7 @@ constexpr std::uint64_t seed = 1618;
 /// Which technique answers, and what none can.
 using ChosenTechnique = QueryTest;
 
-/// Settings by which no amount of work makes a hardware device worth its while.
+/// Settings by which no amount of work selects a hardware device.
 Settings never_a_device() {
     Settings settings;
     settings.device_thresholds = {.pairs = UINT64_MAX, .cells = UINT64_MAX};

@@ -168,9 +168,9 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
             ->excludes(filter);
     command
         ->add_flag("--gpu", arguments.gpu,
-                   "The table that tells when a GPU is worth its while: 1,000 to 100,000 pairs and "
-                   "fields of 256 to 4096 cells a side, by each technique; takes minutes where the "
-                   "device is the CPU; --memory-limit is 4096 by default")
+                   "The amount of work from which a GPU is faster than the CPU: 1,000 to 100,000 "
+                   "pairs and fields of 256 to 4096 cells a side, by each technique; takes minutes "
+                   "on a software device; --memory-limit is 4096 by default")
         ->excludes(scene)
         ->excludes(paper);
     add_parsed_option(*command, "--curves", arguments.curves, parse_png_name,

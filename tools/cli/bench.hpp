@@ -14,7 +14,7 @@ struct BenchArguments {
     std::string scene;   ///< if empty, the standard table is measured
     std::string filter;  ///< selects rows of the standard table
     bool paper = false;  ///< measures the paper's tables instead
-    bool gpu = false;    ///< measures when a GPU is worth its while instead
+    bool gpu = false;    ///< measures the work from which a GPU is faster, instead
     std::optional<std::string> curves;
     std::optional<std::string> technique;
     SettingsArguments settings;

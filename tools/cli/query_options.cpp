@@ -73,18 +73,17 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
                     "input")
         ->required()
         ->type_name("FILE");
-    kind.add_option("B", arguments.file_b, "Outline B: likewise; - for one of them")
+    kind.add_option("B", arguments.file_b, "Outline B: the same formats; - for one of the two")
         ->required()
         ->type_name("FILE");
     add_parsed_option(kind, "-d", arguments.request.tolerance, parse_positive,
                       describe_tolerance(type))
         ->type_name("TOLERANCE")
         ->required(!is_exact(type));
-    add_parsed_option(
-        kind, "--deviation", arguments.deviation, parse_positive,
-        "How far the edges that stand for curves, and for those of --offset, may be off, "
-        "world units, > 0; A's and B's together at most a quarter of the tolerance; default a "
-        "sixteenth of it each")
+    add_parsed_option(kind, "--deviation", arguments.deviation, parse_positive,
+                      "Largest deviation of the edges that replace curves and the round corners of "
+                      "--offset, world units, > 0; A's and B's together at most a quarter of the "
+                      "tolerance; default a sixteenth of it each")
         ->type_name("DEVIATION");
     add_parsed_option(
         kind, "--units", arguments.unit, parse_length_unit,
@@ -105,7 +104,7 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
         ->type_name("W");
     add_parsed_option(kind, "--offset", arguments.treatment.offset, parse_nonzero,
                       "Grow A and B by this, world units, with round corners; negative: shrink; "
-                      "what is off about the corners is part of --deviation; default not at all")
+                      "the deviation of the corners is part of --deviation; default none")
         ->type_name("DISTANCE");
     kind.add_flag("--strict", arguments.treatment.strict,
                   "Refuse rings that enclose nothing; otherwise they are dropped, and listed on "
@@ -114,64 +113,62 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
 
 void add_pose_options(CLI::App& kind, QueryArguments& arguments, QueryType type) {
     add_parsed_option(kind, "--pose-a", arguments.pose_a, parse_pose,
-                      "Where A stands: turned counter-clockwise by degrees about its origin, then "
-                      "moved by world units; default 0,0,0")
+                      "Pose of A: rotation counter-clockwise about its origin by degrees, then "
+                      "translation in world units; default 0,0,0")
         ->type_name("X,Y,DEGREES");
-    add_parsed_option(kind, "--pose-b", arguments.pose_b, parse_pose,
-                      "Where B stands; default 0,0,0")
+    add_parsed_option(kind, "--pose-b", arguments.pose_b, parse_pose, "Pose of B; default 0,0,0")
         ->type_name("X,Y,DEGREES");
     if (type == QueryType::time_of_impact) {
         add_parsed_option(kind, "--end-pose-a", arguments.end_pose_a, parse_pose,
-                          "Where A is at time 1; between times 0 and 1 place and degrees (more "
-                          "than 360 for more than a turn) change evenly; default as --pose-a: A "
-                          "stands still")
+                          "Pose of A at time 1; position and degrees (more than 360 for more than "
+                          "a turn) change at a constant rate; default as --pose-a: A does not move")
             ->type_name("X,Y,DEGREES");
         add_parsed_option(kind, "--end-pose-b", arguments.end_pose_b, parse_pose,
-                          "Where B is at time 1; default as --pose-b: B stands still")
+                          "Pose of B at time 1; default as --pose-b: B does not move")
             ->type_name("X,Y,DEGREES");
     }
 }
 
 void add_contact_options(CLI::App& kind, QueryRequest& request) {
     add_parsed_option(kind, "--contact-distance", request.contact_distance, parse_positive,
-                      "How close counts as contact, world units, > 0; default the tolerance")
+                      "Distance that counts as contact, world units, > 0; default the tolerance")
         ->type_name("D");
     add_parsed_option(kind, "--normals", request.normals, parse_normals,
-                      "Where normals come from: analytic (the nearest feature) or gradient "
+                      "Source of the normals: analytic (the nearest feature) or gradient "
                       "(differences of the signed field); default analytic")
         ->type_name("NAME");
 }
 
 void add_field_options(CLI::App& kind, QueryArguments& arguments) {
-    add_parsed_option(kind, "--rect", arguments.request.rectangle, parse_rectangle,
-                      "What the grid covers, world units; default the common box of A and B grown "
-                      "by the tolerance")
+    add_parsed_option(
+        kind, "--rect", arguments.request.rectangle, parse_rectangle,
+        "Extent of the grid, world units; default the common box of A and B grown by the tolerance")
         ->type_name("X0,Y0,X1,Y1");
-    add_parsed_option(kind, "--gradient", arguments.gradient, parse_gradient,
-                      "How gradients are found: analytic (from the nearest feature), "
-                      "central-differences, or blended (the whole image on the device, technique "
-                      "raster alone); default analytic")
+    add_parsed_option(
+        kind, "--gradient", arguments.gradient, parse_gradient,
+        "Method of the gradients: analytic (from the nearest feature), central-differences, or "
+        "blended (the whole image on the device, technique raster alone); default analytic")
         ->type_name("NAME");
     kind.add_option("--at", arguments.at,
-                    "Reconstruct distance, sign and gradient at a place of the grid, world units; "
-                    "once a place, the JSON lists them as points; default none")
+                    "Reconstruct distance, sign and gradient at a point of the grid, world units; "
+                    "repeatable; the JSON lists the points; default none")
         ->type_name("X,Y")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_motion_options(CLI::App& kind, QueryRequest& request) {
-    add_parsed_option(kind, "--contact-distance", request.contact_distance, parse_positive,
-                      "How close counts as touching, world units, > 0; default 0: the shapes share "
-                      "a point")
+    add_parsed_option(
+        kind, "--contact-distance", request.contact_distance, parse_positive,
+        "Distance that counts as touching, world units, > 0; default 0: the shapes share a point")
         ->type_name("D");
     add_parsed_option(kind, "--time-bound", request.time_bound, parse_positive,
-                      "How much time may be left open, > 0 and at most 1; the tolerance may ask "
-                      "for less; default 1")
+                      "Longest interval of time left open, > 0 and at most 1; the tolerance may "
+                      "demand a shorter one; default 1")
         ->type_name("T");
-    add_count_option(kind, "--most-steps", request.max_steps, {1, 1'000'000'000},
-                     "How often the shapes are looked at, at the most; an answer that needs more "
-                     "says so; default 10000")
+    add_count_option(
+        kind, "--most-steps", request.max_steps, {1, 1'000'000'000},
+        "Limit of evaluations of the shapes; an answer that needs more says so; default 10000")
         ->type_name("N");
 }
 
@@ -202,8 +199,8 @@ void add_answer_options(CLI::App& kind, QueryArguments& arguments, QueryType typ
             break;
         case QueryType::separation_vector:
             add_count_option(kind, "--most-work", arguments.request.max_work, {1, 1'000'000'000},
-                             "How many edges are held against each other, at the most; lower_bound "
-                             "says what less of it leaves open; default 10000000")
+                             "Limit of edge tests; lower_bound states what the search left open; "
+                             "default 10000000")
                 ->type_name("N");
             break;
         case QueryType::closest_point:
@@ -252,7 +249,7 @@ void add_output_options(CLI::App& kind, QueryArguments& arguments, QueryType typ
             ->type_name("FILE.png");
     if (type == QueryType::distance_field) {
         add_parsed_option(kind, "--show", arguments.request.picture, parse_picture,
-                          "What the picture shows: field, voronoi (the nearest features in false "
+                          "Content of the picture: field, voronoi (the nearest features in false "
                           "colour) or gradient; default field")
             ->type_name("NAME")
             ->needs(image);
@@ -270,9 +267,9 @@ void add_output_options(CLI::App& kind, QueryArguments& arguments, QueryType typ
                         "vertex; default none")
             ->type_name("FILE.npy");
     }
-    kind.add_flag("--tiles", arguments.tiles,
-                  "Add the tiles that the device was given to the JSON and to the picture; what "
-                  "the CPU answers has none");
+    kind.add_flag(
+        "--tiles", arguments.tiles,
+        "Add the tiles of the device to the JSON and to the picture; answers of the CPU have none");
 }
 
 /// Hides options in the help of a kind that accepts them but does not use them. They are accepted

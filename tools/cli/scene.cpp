@@ -54,35 +54,35 @@ bool run_until_ctrl_c(SceneRunner& runner) {
 void add_outline_options(CLI::App& command, SceneArguments& arguments) {
     command
         .add_option("--query", arguments.queries,
-                    "Of outlines: a kind of query that is asked of all pairs, once a kind; default "
-                    "containment and intersection-test")
+                    "For outlines: a kind of query for all pairs; repeatable; default containment "
+                    "and intersection-test")
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     add_parsed_option(command, "-d", arguments.tolerance, parse_positive,
-                      "Of outlines: the tolerance, world units, > 0; default none, which sampled "
+                      "For outlines: the tolerance, world units, > 0; default none, which sampled "
                       "kinds and separation-vector need")
         ->type_name("TOLERANCE");
     command.add_flag("--hits-only", arguments.hits_only,
-                     "Of outlines: leave out the results of pairs without a hit");
+                     "For outlines: leave out the results of pairs without a hit");
     add_parsed_option(command, "--units", arguments.unit, parse_length_unit,
-                      "Of outlines: the unit of SVG, as nearfield query has it; default user")
+                      "For outlines: the unit of SVG, as for nearfield query; default user")
         ->type_name("NAME");
     add_parsed_option(
         command, "--deviation", arguments.deviation, parse_positive,
-        "Of outlines: how far edges may be off curves, world units, > 0; default a "
+        "For outlines: largest deviation of edges from curves, world units, > 0; default a "
         "sixteenth of the tolerance, without one a 100,000th of a shape's longer side")
         ->type_name("DEVIATION");
-    add_parsed_option(command, "--fill-rule", arguments.fill_rule, parse_fill_rule,
-                      "Of outlines: odd-even, nonzero, positive or union; default as nearfield "
-                      "query")
+    add_parsed_option(
+        command, "--fill-rule", arguments.fill_rule, parse_fill_rule,
+        "For outlines: odd-even, nonzero, positive or union; default as for nearfield query")
         ->type_name("NAME");
     add_parsed_option(command, "--clean-width", arguments.clean_width, parse_positive,
-                      "Of outlines: drop rings, spikes and vertices that are no wider than this, "
+                      "For outlines: drop rings, spikes and vertices that are no wider than this, "
                       "world units, > 0; default only rings that enclose nothing")
         ->type_name("W");
     add_parsed_option(command, "--offset", arguments.offset, parse_nonzero,
-                      "Of outlines: grow every item by this, world units, with round corners; "
+                      "For outlines: grow every item by this, world units, with round corners; "
                       "negative: shrink; default not at all")
         ->type_name("DISTANCE");
 }
