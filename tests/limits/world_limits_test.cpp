@@ -158,7 +158,7 @@ public:
         for (const auto& row : table.rows()) {
             EXPECT_EQ(row.status, StatusCode::ok);
             numbers.insert(numbers.end(), {1.0 * row.intersects, row.error_bound,
-                                           static_cast<double>(row.record_count)});
+                                           static_cast<double>(row.point_count)});
         }
         return status;
     }

@@ -66,8 +66,8 @@ void check_agreement(Report& report, const Asked& asked, const IntersectionResul
     for (std::size_t i = 0; report.clean() && i < one.samples.size(); ++i) {
         const IntersectionSample& a = one.samples[i];
         const IntersectionSample& b = other.samples[i];
-        report.require(a.point == b.point, "sample ", i, " at ", a.point.x, ", ", a.point.y,
-                       " and ", b.point.x, ", ", b.point.y);
+        report.require(a.position == b.position, "sample ", i, " at ", a.position.x, ", ",
+                       a.position.y, " and ", b.position.x, ", ", b.position.y);
         report.require(a.edge == b.edge, "sample ", i, " names edges ", a.edge, " and ", b.edge);
     }
 }

@@ -84,7 +84,7 @@ void check_points(Report& report, const Asked& asked, const DistanceFieldResult&
     for (std::size_t i = 0; report.clean() && i < one.points.size(); ++i) {
         const FieldPoint& a = one.points[i];
         const FieldPoint& b = other.points[i];
-        report.require(a.point == b.point, "point ", i, " is another");
+        report.require(a.position == b.position, "point ", i, " is another");
         report.require(std::abs(a.distance - b.distance) <=
                            a.error_bound + b.error_bound + asked.pair.rounding(),
                        "point ", i, " is ", a.distance, " and ", b.distance, ", bounds ",
@@ -94,8 +94,8 @@ void check_points(Report& report, const Asked& asked, const DistanceFieldResult&
                            b.inside);
         }
         report.require(
-            allows(asked.pair, a.point, named(asked.pair.b(), a.feature, a.point, a.unique),
-                   named(asked.pair.b(), b.feature, b.point, b.unique)),
+            allows(asked.pair, a.position, named(asked.pair.b(), a.feature, a.position, a.unique),
+                   named(asked.pair.b(), b.feature, b.position, b.unique)),
             "point ", i, " names features ", a.feature.index, " and ", b.feature.index);
     }
 }

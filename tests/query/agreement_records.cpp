@@ -77,13 +77,13 @@ void check_agreement(Report& report, const Asked& asked, const PenetrationResult
     match(
         one.points, other.points,
         [&](const PenetratingPoint& i, const PenetratingPoint& j) {
-            pairs.add(i.point, named(i), named(j));
+            pairs.add(i.position, named(i), named(j));
             report.require(!same_feature(i.feature, j.feature) || i.direction == j.direction,
-                           "directions differ at ", i.point.x, ", ", i.point.y);
+                           "directions differ at ", i.position.x, ", ", i.position.y);
         },
         [&](const PenetratingPoint& alone) {
-            report.require(alone.depth <= touching, "only one has a record at ", alone.point.x,
-                           ", ", alone.point.y, ", depth ", alone.depth);
+            report.require(alone.depth <= touching, "only one has a record at ", alone.position.x,
+                           ", ", alone.position.y, ", depth ", alone.depth);
         });
     if (asked.mostly_equal) {
         pairs.require_most_equal();
@@ -111,19 +111,19 @@ void check_agreement(Report& report, const Asked& asked, const ContactResult& on
                 if (!analytic) {
                     i.unique = j.unique;
                 }
-                pairs.add(i.point, named(i), named(j));
+                pairs.add(i.position, named(i), named(j));
                 report.require(i.inside == j.inside || i.distance <= margin, "only one says that ",
-                               i.point.x, ", ", i.point.y, " is inside; it is ", i.distance);
+                               i.position.x, ", ", i.position.y, " is inside; it is ", i.distance);
                 report.require(!analytic || !same_feature(i.feature, j.feature) ||
                                    i.inside != j.inside || i.normal == j.normal,
-                               "normals differ at ", i.point.x, ", ", i.point.y, ", ", i.distance,
-                               " away: ", i.normal.x, ", ", i.normal.y, " and ", j.normal.x, ", ",
-                               j.normal.y);
+                               "normals differ at ", i.position.x, ", ", i.position.y, ", ",
+                               i.distance, " away: ", i.normal.x, ", ", i.normal.y, " and ",
+                               j.normal.x, ", ", j.normal.y);
             },
             [&](const ContactPoint& alone) {
                 report.require(alone.distance >= query.contact_distance - margin,
-                               "only one has a contact at ", alone.point.x, ", ", alone.point.y,
-                               ", distance ", alone.distance);
+                               "only one has a contact at ", alone.position.x, ", ",
+                               alone.position.y, ", distance ", alone.distance);
             });
         if (asked.mostly_equal) {
             pairs.require_most_equal();

@@ -22,14 +22,14 @@ public:
     void add(const Pose& p) { add_all(p.translation, p.angle); }
     void add(const Region& r) { add_all(r.min, r.max, r.width, r.height); }
     void add(const PenetratingPoint& r) {
-        add_all(r.point, r.depth, r.direction, r.nearest, r.feature, r.unique);
+        add_all(r.position, r.depth, r.direction, r.nearest, r.feature, r.unique);
     }
-    void add(const IntersectionSample& s) { add_all(s.point, s.edge); }
+    void add(const IntersectionSample& s) { add_all(s.position, s.edge); }
     void add(const FieldPoint& p) {
-        add_all(p.point, p.distance, p.error_bound, p.inside, p.gradient, p.feature, p.unique);
+        add_all(p.position, p.distance, p.error_bound, p.inside, p.gradient, p.feature, p.unique);
     }
     void add(const ContactPoint& r) {
-        add_all(r.point, r.normal, r.distance, r.nearest, r.feature, r.on, r.inside, r.unique);
+        add_all(r.position, r.normal, r.distance, r.nearest, r.feature, r.on, r.inside, r.unique);
     }
     void add(const ContactCluster& c) { add_all(c.first, c.last, c.normal, c.extreme, c.count); }
     template <class Element>

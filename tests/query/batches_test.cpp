@@ -38,7 +38,7 @@ protected:
 };
 
 void expect_same(const PenetratingPoint& a, const PenetratingPoint& b) {
-    EXPECT_EQ(a.point, b.point);
+    EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.depth, b.depth);
     EXPECT_EQ(a.direction, b.direction);
     EXPECT_EQ(a.nearest, b.nearest);

@@ -201,7 +201,7 @@ protected:
         Ticket ticket;
         measure("`submit`", [&] { ticket = *context_->submit(batch_); });
         measure("`resident`, `memory_use`, `device_name`", [&] {
-            EXPECT_TRUE(context_->resident(ticket, field_).has_value());
+            EXPECT_TRUE(context_->on_device(ticket, field_).has_value());
             EXPECT_GT(context_->memory_use().in_use, 0U);
             EXPECT_FALSE(context_->device_name().empty());
         });

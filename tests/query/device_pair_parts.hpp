@@ -136,7 +136,7 @@ private:
     static void add_lists(PairTable<Query>& table, std::uint32_t row, std::vector<double>& all) {
         if constexpr (requires { table.query().records; }) {
             if (table.query().records) {
-                for (const auto& one : records_of(table, row)) {
+                for (const auto& one : points_of(table, row)) {
                     all.insert(all.end(), {one.point.x, one.point.y, one.nearest.x, one.nearest.y});
                 }
             }

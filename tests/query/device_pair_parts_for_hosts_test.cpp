@@ -89,7 +89,7 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
     for (const bool records : {true, false}) {
         const PenetrationQuery query{.tolerance = 0.05,
                                      .points = PenetrationPoints::vertices,
-                                     .records = records,
+                                     .summary_only = !records,
                                      .on_device = true};
         const int dispatches = dispatches_of_a_part(query);
         PairTable<PenetrationQuery> whole(query, on_device);
@@ -98,8 +98,8 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
         const Status status = small_world().update(in_parts);
         ASSERT_TRUE(status.ok()) << status.text();
         EXPECT_GE(calls_of_parts.dispatches / dispatches, 2);
-        const Residents expected = read(*whole.resident());
-        const Residents found = read(*in_parts.resident());
+        const Residents expected = read(*whole.on_device());
+        const Residents found = read(*in_parts.on_device());
         EXPECT_GT(expected.pairs.size(), 500U);
         ASSERT_EQ(found.pairs.size(), expected.pairs.size());
         ASSERT_EQ(found.records.size(), expected.records.size());
@@ -125,8 +125,8 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
     const Status status = small_world().update(in_parts);
     ASSERT_TRUE(status.ok()) << status.text();
     EXPECT_GE(calls_of_parts.dispatches / dispatches, 2);
-    const Residents expected = read(*whole.resident());
-    const Residents found = read(*in_parts.resident());
+    const Residents expected = read(*whole.on_device());
+    const Residents found = read(*in_parts.on_device());
     EXPECT_GE(found.records.size(), expected.records.size());
     ASSERT_EQ(found.pairs.size(), expected.pairs.size());
     for (std::size_t i = 0; i < expected.pairs.size(); ++i) {
@@ -135,9 +135,9 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
         ASSERT_TRUE(one.a == other.a && one.b == other.b && one.count == other.count &&
                     one.flags == other.flags)
             << i;
-        ASSERT_EQ(one.record_count, other.record_count);
+        ASSERT_EQ(one.point_count, other.point_count);
         ASSERT_EQ(one.count_of_b, other.count_of_b);
-        for (std::uint32_t k = 0; k < one.record_count; ++k) {
+        for (std::uint32_t k = 0; k < one.point_count; ++k) {
             ASSERT_TRUE(are_alike(expected.records[one.first_point + k],
                                   found.records[other.first_point + k]));
         }

@@ -113,8 +113,11 @@ TEST_F(DevicePairParts, FindTheSameAmongAllShapes) {
     }
 }
 
+/// How pairs are divided into parts, and joined again.
+class DivisionOfPairs : public DevicePairParts {};
+
 /// Few of the instances have most of the pairs.
-TEST_F(DevicePairParts, AreDividedWhereThePairsAre) {
+TEST_F(DivisionOfPairs, AreDividedWhereThePairsAre) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 2);
     add_crowd(random, 60, 40.0);
@@ -129,7 +132,7 @@ TEST_F(DevicePairParts, AreDividedWhereThePairsAre) {
 }
 
 /// Worlds of which instances are removed and added again.
-TEST_F(DevicePairParts, FollowTheInstances) {
+TEST_F(DivisionOfPairs, FollowTheInstances) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 3);
     const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
@@ -150,7 +153,7 @@ TEST_F(DevicePairParts, FollowTheInstances) {
 }
 
 /// What has moved apart is searched at once again.
-TEST_F(DevicePairParts, AreJoinedWherePairsAreFew) {
+TEST_F(DivisionOfPairs, AreJoinedWherePairsAreFew) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 4);
     add_crowd(random, 250, 2.0);
@@ -171,7 +174,7 @@ TEST_F(DevicePairParts, AreJoinedWherePairsAreFew) {
     EXPECT_GE(parts(dispatches), 4);
 }
 
-TEST_F(DevicePairParts, MakeNothingInASteadyState) {
+TEST_F(DivisionOfPairs, MakeNothingInASteadyState) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 5);
     add_crowd(random, 200, 2.5);
@@ -182,7 +185,7 @@ TEST_F(DevicePairParts, MakeNothingInASteadyState) {
     for (std::size_t i = 0; i < size_of_both(); ++i) {
         poses.push_back(any_pose(random, 2.5));
     }
-    for (int frame = 0; frame < 40; ++frame) {
+    for (int frame = 0; frame < 24; ++frame) {
         for (std::size_t i = 0; i < size_of_both(); ++i) {
             Pose pose = poses[i];
             pose.translation.x += 0.02 * (frame % 4);
@@ -195,7 +198,7 @@ TEST_F(DevicePairParts, MakeNothingInASteadyState) {
         const bool ok = small_world().update(table).ok();
         const std::uint64_t own = test_support::allocation_count_of_this_thread() - first;
         ASSERT_TRUE(ok);
-        if (frame >= 20) {
+        if (frame >= 16) {
             EXPECT_EQ(own, calls_of_parts.allocations_below);
             EXPECT_EQ(calls_of_parts.objects, 0);
             EXPECT_EQ(calls_of_parts.submissions, 1);
@@ -206,7 +209,7 @@ TEST_F(DevicePairParts, MakeNothingInASteadyState) {
 }
 
 /// All buffers together may have so much.
-TEST_F(DevicePairParts, KeepToTheLimitOfMemory) {
+TEST_F(DivisionOfPairs, KeepToTheLimitOfMemory) {
     Settings settings;
     settings.memory_limit = 6U << 20U;
     ASSERT_NO_FATAL_FAILURE(make_small(1U << 27U, settings));
@@ -226,7 +229,7 @@ TEST_F(DevicePairParts, KeepToTheLimitOfMemory) {
     EXPECT_EQ(too_large.size(), 0U);
 }
 
-TEST_F(DevicePairParts, RefuseWhatOneInstanceHasTooMuchOf) {
+TEST_F(DivisionOfPairs, RefuseWhatOneInstanceHasTooMuchOf) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
     Random random(seed + 7);
     add_crowd(random, 10, 0.5);
@@ -239,7 +242,7 @@ TEST_F(DevicePairParts, RefuseWhatOneInstanceHasTooMuchOf) {
         << status.text();
 }
 
-TEST_F(DevicePairParts, AreTimedTogether) {
+TEST_F(DivisionOfPairs, AreTimedTogether) {
     Settings settings;
     settings.timestamps = true;
     ASSERT_NO_FATAL_FAILURE(make_small(little, settings));

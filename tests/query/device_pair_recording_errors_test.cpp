@@ -324,7 +324,7 @@ TEST_F(DevicePairRecordingErrors, OfWorldsWithoutPairsAreNone) {
         EXPECT_TRUE(status.ok()) << status.text();
         EXPECT_EQ(table.size(), 0U);
         EXPECT_TRUE(own_world_->is_recorded(table));
-        EXPECT_EQ(table.resident().error().code(), StatusCode::not_ready);
+        EXPECT_EQ(table.on_device().error().code(), StatusCode::not_ready);
         crowd(1);
     }
     crowd(1);

@@ -44,10 +44,10 @@ protected:
             if constexpr (requires { row->distance; }) {
                 numbers.push_back(row->distance);
             }
-            for (const auto& record : records_of(table, i)) {
+            for (const auto& record : points_of(table, i)) {
                 if constexpr (requires { record.nearest; }) {
-                    numbers.insert(numbers.end(), {record.point.x, record.point.y, record.nearest.x,
-                                                   record.nearest.y});
+                    numbers.insert(numbers.end(), {record.position.x, record.position.y,
+                                                   record.nearest.x, record.nearest.y});
                 }
             }
         }
@@ -157,7 +157,7 @@ protected:
         std::vector<std::vector<std::uint32_t>> expected;
         std::vector<double> last_rows;
         update_with_each(reference, buffer, poses, [&] {
-            expected.push_back(read_residents(*reference.resident()));
+            expected.push_back(read_residents(*reference.on_device()));
             last_rows = numbers_of(reference);
         });
         ASSERT_EQ(expected.size(), poses.size());
@@ -173,7 +173,7 @@ protected:
             world().record(table, {.commands = search, .frame = frame}, at_poses(buffer.poses()));
         ASSERT_TRUE(status.ok()) << status.text();
         kept.end(search);
-        const PairsOnDevice pairs = *table.resident();
+        const PairsOnDevice pairs = *table.on_device();
         std::vector<VkCommandBuffer> commands;
         std::vector<HostGpu::Buffer> copies;
         for (const std::vector<HostPose>& each : poses) {
@@ -195,7 +195,7 @@ protected:
         const Status collected = table.collect();
         ASSERT_TRUE(collected.ok()) << collected.text();
         EXPECT_EQ(numbers_of(table), last_rows);
-        EXPECT_EQ(table.resident()->revision, pairs.revision);
+        EXPECT_EQ(table.on_device()->revision, pairs.revision);
     }
     /// What was recorded is about the world as it was.
     void change_the_world() {

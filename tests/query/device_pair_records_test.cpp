@@ -27,7 +27,7 @@ TEST_F(DevicePairRecords, AreAsManyAsTheirRowsCount) {
             PairTable table(PenetrationQuery{.tolerance = 1.12e-3, .points = points}, on_device);
             ASSERT_TRUE(world().update(table).ok());
             for (std::uint32_t i = 0; i < table.size(); ++i) {
-                const std::vector<PenetratingPoint> records = records_of(table, i);
+                const std::vector<PenetratingPoint> records = points_of(table, i);
                 EXPECT_EQ(records.size(), table.row(i)->count) << "row " << i;
                 records_of_all += static_cast<std::uint32_t>(records.size());
             }

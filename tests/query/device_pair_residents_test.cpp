@@ -111,7 +111,7 @@ protected:
         ASSERT_TRUE(world().submit(table).ok());
         const Status status = table.collect();
         ASSERT_TRUE(status.ok()) << status.text();
-        const Expected<PairsOnDevice> pairs = table.resident();
+        const Expected<PairsOnDevice> pairs = table.on_device();
         ASSERT_TRUE(pairs.has_value()) << pairs.error().text();
         const Read all = read(*pairs);
         EXPECT_EQ(all.pair_header.overflow + all.record_header.overflow, 0U);
@@ -142,7 +142,7 @@ protected:
     void compare_row(PairTable<Query>& table, std::uint32_t i, const PairRow<Query>& row,
                      const PairData& pair, const Read& all, const Vector2& origin) {
         SCOPED_TRACE("row " + std::to_string(i));
-        ASSERT_LE(pair.first_point + pair.record_count, all.records.size());
+        ASSERT_LE(pair.first_point + pair.point_count, all.records.size());
         ASSERT_LE(pair.first_of_b + pair.count_of_b, all.records.size());
         if ((pair.flags & pair_flags::uncertain) == 0) {
             EXPECT_EQ(pair.count, row.count);
@@ -150,21 +150,21 @@ protected:
         if ((pair.flags & pair_flags::intersects) != 0) {
             EXPECT_TRUE(row.intersects);
         }
-        for (const auto& one : records_of(table, i)) {
+        for (const auto& one : points_of(table, i)) {
             bool is_of_b = false;
             if constexpr (std::is_same_v<Query, ContactQuery>) {
                 is_of_b = one.on == Side::b;
             }
             const PairRecordData* const found =
-                is_of_b ? find(all, pair.first_of_b, pair.count_of_b, origin, one.point)
-                        : find(all, pair.first_point, pair.record_count, origin, one.point);
-            ASSERT_NE(found, nullptr) << one.point.x << " " << one.point.y;
+                is_of_b ? find(all, pair.first_of_b, pair.count_of_b, origin, one.position)
+                        : find(all, pair.first_point, pair.point_count, origin, one.position);
+            ASSERT_NE(found, nullptr) << one.position.x << " " << one.position.y;
             if constexpr (std::is_same_v<Query, PenetrationQuery>) {
                 expect_equal(*found, one.nearest, one.direction, one.depth, one.unique, origin);
             } else {
                 const double sign = one.inside ? 1.0 : -1.0;
-                const Vector2 direction{sign * (one.nearest.x - one.point.x) / one.distance,
-                                        sign * (one.nearest.y - one.point.y) / one.distance};
+                const Vector2 direction{sign * (one.nearest.x - one.position.x) / one.distance,
+                                        sign * (one.nearest.y - one.position.y) / one.distance};
                 expect_equal(*found, one.nearest, direction, one.distance, one.unique, origin);
             }
             ++records_;
@@ -220,19 +220,19 @@ TEST_F(DevicePairResidents, SayThatTheyAreNotAllThere) {
     }
     PairTable table(PenetrationQuery{.tolerance = 0.05, .on_device = true}, on_device);
     ASSERT_TRUE(world().submit(table).ok());
-    const Read before = read(*table.resident());
+    const Read before = read(*table.on_device());
     EXPECT_EQ(before.pair_header.overflow, 1U);
     EXPECT_EQ(before.record_header.overflow, 1U);
-    const std::uint64_t revision = table.resident()->revision;
+    const std::uint64_t revision = table.on_device()->revision;
     ASSERT_TRUE(table.collect().ok());
-    EXPECT_NE(table.resident()->revision, revision);
-    const Read after = read(*table.resident());
+    EXPECT_NE(table.on_device()->revision, revision);
+    const Read after = read(*table.on_device());
     EXPECT_EQ(after.pair_header.overflow, 0U);
     EXPECT_EQ(after.record_header.overflow, 0U);
     EXPECT_EQ(after.pairs.size(), 120U * 119U);
     EXPECT_EQ(table.size(), 120U * 119U);
     ASSERT_TRUE(world().submit(table).ok());
-    EXPECT_EQ(read(*table.resident()).pairs.size(), 120U * 119U);
+    EXPECT_EQ(read(*table.on_device()).pairs.size(), 120U * 119U);
     ASSERT_TRUE(table.collect().ok());
 }
 
@@ -251,8 +251,8 @@ TEST_F(DevicePairResidents, AreRelativeToTheOriginOfTheHost) {
     for (const Vector2& origin : {Vector2{}, Vector2{1000.0, -5.0}, Vector2{7.0, 7.0}}) {
         poses.origin = origin;
         ASSERT_TRUE(world().update(table, at_poses(poses)).ok());
-        EXPECT_EQ(table.resident()->origin, origin);
-        EXPECT_EQ(read(*table.resident()).pairs.size(), 2U);
+        EXPECT_EQ(table.on_device()->origin, origin);
+        EXPECT_EQ(read(*table.on_device()).pairs.size(), 2U);
         EXPECT_NEAR(table.row(0)->deepest.nearest.x, origin.x + 1.0, 1.0);
     }
 }
@@ -272,7 +272,7 @@ TEST_F(DevicePairResidents, OfATableThatStartsAnewHaveAnotherRevision) {
     for (int i = 0; i < 3; ++i) {
         for (World* const each : {&world(), &*other}) {
             ASSERT_TRUE(each->update(table).ok());
-            EXPECT_TRUE(revisions.insert(table.resident()->revision).second);
+            EXPECT_TRUE(revisions.insert(table.on_device()->revision).second);
         }
     }
 }
@@ -280,16 +280,16 @@ TEST_F(DevicePairResidents, OfATableThatStartsAnewHaveAnotherRevision) {
 TEST_F(DevicePairResidents, OfNothingHaveACountOfZero) {
     const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
     PairTable table(PenetrationQuery{.tolerance = 0.05, .on_device = true}, on_device);
-    EXPECT_EQ(table.resident().error().code(), StatusCode::not_ready);
+    EXPECT_EQ(table.on_device().error().code(), StatusCode::not_ready);
     add(square, {});
     ASSERT_TRUE(world().update(table).ok());
-    EXPECT_EQ(table.resident().error().code(), StatusCode::not_ready);
+    EXPECT_EQ(table.on_device().error().code(), StatusCode::not_ready);
     add(square, {.translation = {5.0, 0.0}});
     ASSERT_TRUE(world().update(table).ok());
-    EXPECT_EQ(read(*table.resident()).pairs.size(), 0U);
+    EXPECT_EQ(read(*table.on_device()).pairs.size(), 0U);
     PairTable rows_alone(PenetrationQuery{.tolerance = 0.05}, on_device);
     ASSERT_TRUE(world().update(rows_alone).ok());
-    EXPECT_EQ(rows_alone.resident().error().code(), StatusCode::invalid_query);
+    EXPECT_EQ(rows_alone.on_device().error().code(), StatusCode::invalid_query);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ protected:
             const auto row = table.row(i);
             EXPECT_TRUE(row.has_value()) << row.error().text();
             all.rows.push_back(*row);
-            all.records.push_back(records_of(table, i));
+            all.records.push_back(points_of(table, i));
         }
         all.candidates = table.candidates();
         all.left_to_cpu = table.left_to_cpu();
@@ -60,7 +60,7 @@ protected:
             EXPECT_EQ(found.rows[i].deepest.depth, expected.rows[i].deepest.depth);
             ASSERT_EQ(found.records[i].size(), expected.records[i].size());
             for (std::size_t k = 0; k < found.records[i].size(); ++k) {
-                EXPECT_EQ(found.records[i][k].point.x, expected.records[i][k].point.x);
+                EXPECT_EQ(found.records[i][k].position.x, expected.records[i][k].position.x);
                 EXPECT_EQ(found.records[i][k].depth, expected.records[i][k].depth);
             }
         }

@@ -259,12 +259,12 @@ TYPED_TEST(DevicePairTables, AreTheSameInEachRun) {
             if constexpr (requires { one->count; }) {
                 EXPECT_EQ(one->count, other.count);
             }
-            const auto records = records_of(first, i);
-            const auto again = records_of(second, i);
+            const auto records = points_of(first, i);
+            const auto again = points_of(second, i);
             ASSERT_EQ(records.size(), again.size());
             for (std::size_t k = 0; k < records.size(); ++k) {
                 if constexpr (requires { records[k].nearest; }) {
-                    EXPECT_EQ(records[k].position, again[k].point);
+                    EXPECT_EQ(records[k].position, again[k].position);
                     EXPECT_EQ(records[k].nearest, again[k].nearest);
                 }
             }

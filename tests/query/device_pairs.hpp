@@ -39,7 +39,7 @@ inline std::vector<Rings> some_shapes(Random& random) {
 inline void expect_equal(const PenetratingPoint& found, const PenetratingPoint& truth,
                          double tolerance) {
     EXPECT_NEAR(found.depth, truth.depth, tolerance / 1000.0);
-    EXPECT_EQ(found.point, truth.point);
+    EXPECT_EQ(found.position, truth.position);
     if (truth.unique && found.unique) {
         EXPECT_NEAR(found.nearest.x, truth.nearest.x, 0.1 * tolerance + 0.1 * truth.depth);
         EXPECT_NEAR(found.nearest.y, truth.nearest.y, 0.1 * tolerance + 0.1 * truth.depth);
@@ -47,7 +47,7 @@ inline void expect_equal(const PenetratingPoint& found, const PenetratingPoint& 
 }
 inline void expect_equal(const ContactPoint& found, const ContactPoint& truth, double tolerance) {
     EXPECT_NEAR(found.distance, truth.distance, tolerance / 1000.0);
-    EXPECT_EQ(found.point, truth.point);
+    EXPECT_EQ(found.position, truth.position);
     EXPECT_EQ(found.on, truth.on);
     EXPECT_EQ(found.inside, truth.inside);
     if (truth.unique && found.unique) {
@@ -171,7 +171,7 @@ protected:
             EXPECT_EQ(found.status, truth.status);
             EXPECT_EQ(found.intersects, truth.intersects);
             EXPECT_EQ(found.error_bound, truth.error_bound);
-            EXPECT_EQ(found.record_count, truth.record_count);
+            EXPECT_EQ(found.point_count, truth.point_count);
             if (truth.status != StatusCode::ok) {
                 continue;
             }

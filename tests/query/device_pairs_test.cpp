@@ -135,14 +135,14 @@ TEST_F(DevicePairs, StayAsTheyWere) {
     ASSERT_TRUE(world().update(table).ok());
     ASSERT_EQ(table.size(), 2U);
     const auto before = table.row(0);
-    const std::size_t count = records_of(table, 1).size();
+    const std::size_t count = points_of(table, 1).size();
     ASSERT_TRUE(world().move(one, {.translation = {50.0, 0.0}}).ok());
     ASSERT_TRUE(context().update_shape(shape, rectangle({-3.0, -3.0}, {3.0, 3.0})).ok());
     const auto after = table.row(0);
     ASSERT_TRUE(before.has_value() && after.has_value());
     EXPECT_EQ(before->count, after->count);
     EXPECT_EQ(before->deepest.depth, after->deepest.depth);
-    EXPECT_EQ(records_of(table, 1).size(), count);
+    EXPECT_EQ(points_of(table, 1).size(), count);
     ASSERT_TRUE(world().update(table).ok());
     EXPECT_EQ(table.size(), 0U);
 }

@@ -43,7 +43,7 @@ protected:
                 samples.strategy = strategy;
                 batch.add(samples);
                 samples.kind = IntersectionKind::volume_volume;
-                samples.records = false;
+                samples.summary_only = true;
                 batch.add(samples);
             }
         }

@@ -41,7 +41,7 @@ TEST_F(EngineGlue, AnswersEveryFrame) {
         if (frame >= Proximity::frames) {
             const std::uint64_t former = frame - Proximity::frames;
             ContactQuery alone = asked[former];
-            alone.resident = false;
+            alone.on_device = false;
             alone.a.shape = *context().add_shape(rings_a);
             alone.b.shape = *context().add_shape(rings_b);
             alone.technique = Technique::compute;

@@ -241,11 +241,11 @@ void FieldLaws::check_points(const ShapeOracle& b, const DistanceFieldQuery& que
     const double octagon = std::sqrt(2.0 - std::sqrt(2.0)) * std::sqrt(2.0);  // 1.0824
     for (std::size_t i = 0; i < result.points.size(); ++i) {
         const FieldPoint& point = result.points[i];
-        report.require(point.point == query.points[i], "point ", i, " is another one");
-        const double truth = b.signed_distance(point.point);
+        report.require(point.position == query.points[i], "point ", i, " is another one");
+        const double truth = b.signed_distance(point.position);
         report.require(
             std::abs(point.distance - truth) <= point.error_bound * (1 + 1e-6) + b.rounding(),
-            "point ", i, " at ", point.point.x, ", ", point.point.y, " is ", point.distance,
+            "point ", i, " at ", point.position.x, ", ", point.position.y, " is ", point.distance,
             ", should be ", truth, " within ", point.error_bound);
         report.require(point.error_bound <= result.error_bound + d * (1 + 1e-6), "point ", i,
                        " has the bound ", point.error_bound);
@@ -258,7 +258,7 @@ void FieldLaws::check_points(const ShapeOracle& b, const DistanceFieldQuery& que
             report.require(point.inside < 1e-12 || point.inside > 1 - 1e-12, "point ", i, " is ",
                            point.inside, " inside, far from the boundary at ", truth);
         }
-        Found found{point.point, point.feature, point.gradient,
+        Found found{point.position, point.feature, point.gradient,
                     query.gradient == GradientMethod::analytic, point.unique};
         check_feature(report, b, d, found);
     }

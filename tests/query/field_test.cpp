@@ -228,10 +228,10 @@ TEST_F(Field, GradientsAtCornersPointOut) {
                 const DistanceFieldResult result = run_alone(context(), query);
                 ASSERT_EQ(result.points.size(), ring.size());
                 for (const FieldPoint& corner : result.points) {
-                    const Vector2 out{corner.point.x - middle.x, corner.point.y - middle.y};
+                    const Vector2 out{corner.position.x - middle.x, corner.position.y - middle.y};
                     EXPECT_GT(corner.gradient.x * out.x + corner.gradient.y * out.y, 0.1)
                         << to_string(technique) << ", turn " << turn << ", corner ("
-                        << corner.point.x << ", " << corner.point.y << ")";
+                        << corner.position.x << ", " << corner.position.y << ")";
                 }
             }
             EXPECT_TRUE(context().remove_shape(*shape).ok());

@@ -84,7 +84,7 @@ TEST_F(Frames, OfSeveralRoundsTakeOneSubmission) {
     Batch batch;
     const auto penetration = batch.add(placed.penetration());
     IntersectionQuery watched_query = placed.intersection(IntersectionKind::volume_volume);
-    watched_query.records = false;
+    watched_query.summary_only = true;
     const auto intersection = batch.add(watched_query);
     DistanceFieldQuery query;
     query.technique = Technique::raster;

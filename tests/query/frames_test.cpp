@@ -211,7 +211,7 @@ TEST_F(Frames, OfALostDeviceAllSaySo) {
     EXPECT_EQ(first.code(), StatusCode::device_lost);
     EXPECT_NE(first.message().find("vkWaitForFences"), std::string::npos) << first.message();
     EXPECT_TRUE(counted().is_ready(tickets[0]));
-    EXPECT_EQ(counted().resident(tickets[0], QueryHandle<DistanceFieldQuery>{0}).error().code(),
+    EXPECT_EQ(counted().on_device(tickets[0], QueryHandle<DistanceFieldQuery>{0}).error().code(),
               StatusCode::device_lost);
     EXPECT_EQ(counted().collect(tickets[0], results).code(), StatusCode::device_lost);
     EXPECT_EQ(counted().collect(tickets[2], results).code(), StatusCode::device_lost);

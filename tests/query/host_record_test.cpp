@@ -348,7 +348,7 @@ TEST_F(Recorded, ComputeBatchesRunInSecondaryCommandBuffers) {
         IntersectionQuery overlap{here, there, 0.03};
         DistanceFieldQuery field{here, there, 0.03};
         depths.technique = contacts.technique = overlap.technique = field.technique = technique;
-        contacts.on_device = overlap.resident = field.on_device = true;
+        contacts.on_device = overlap.on_device = field.on_device = true;
         batch.add(depths);
         batch.add(contacts);
         batch.add(overlap);

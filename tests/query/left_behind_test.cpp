@@ -40,7 +40,7 @@ protected:
         Batch all = scene.every(true);
         IntersectionQuery watched{{scene.a, {}}, {scene.b, {{0.5, 0.0}, 0.3}}, 0.005};
         watched.technique = Technique::raster;
-        watched.records = false;
+        watched.summary_only = true;
         all.add(watched);
         static_cast<void>(scene.record(all, frames, 0));
     }

@@ -11,7 +11,7 @@ namespace nearfield::test {
 template <class Record>
 void sort_by_point(std::vector<Record>& records) {
     std::stable_sort(records.begin(), records.end(), [](const Record& i, const Record& j) {
-        return std::tie(i.point.x, i.point.y) < std::tie(j.point.x, j.point.y);
+        return std::tie(i.position.x, i.position.y) < std::tie(j.position.x, j.position.y);
     });
 }
 

@@ -26,7 +26,7 @@ protected:
     }
 
     static void expect_same(const FieldPoint& one, const FieldPoint& other, std::size_t index) {
-        EXPECT_EQ(one.point, other.point) << index;
+        EXPECT_EQ(one.position, other.position) << index;
         EXPECT_EQ(one.distance, other.distance) << index;
         EXPECT_EQ(one.error_bound, other.error_bound) << index;
         EXPECT_EQ(one.inside, other.inside) << index;
@@ -346,8 +346,8 @@ TEST_F(Reconstruction, GradientsAtPointsAreBilinearBetweenCells) {
         ASSERT_TRUE(result.status.ok()) << result.status.text();
         int compared = 0;
         for (const FieldPoint& point : result.points) {
-            const double x = (point.point.x - result.origin.x) / result.cell - 0.5;
-            const double y = (point.point.y - result.origin.y) / result.cell - 0.5;
+            const double x = (point.position.x - result.origin.x) / result.cell - 0.5;
+            const double y = (point.position.y - result.origin.y) / result.cell - 0.5;
             if (x < 0 || y < 0 || x >= result.width - 1.0 || y >= result.height - 1.0) {
                 continue;
             }

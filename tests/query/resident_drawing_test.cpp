@@ -64,8 +64,8 @@ void check_sides(const Scene& scene, const Picture& picture, const ContactResult
             const double distance = scene.pair.b().signed_distance(place);
             const Shown what = shown(picture.at(column, row));
             const bool near_a_contact = std::any_of(
-                contacts.records.begin(), contacts.records.end(), [&](const ContactPoint& record) {
-                    return std::hypot(record.point.x - place.x, record.point.y - place.y) <
+                contacts.points.begin(), contacts.points.end(), [&](const ContactPoint& record) {
+                    return std::hypot(record.position.x - place.x, record.position.y - place.y) <
                            1.1 * scene.shot.arrow_length;
                 });
             ASSERT_TRUE(near_a_contact || !is_arrow(what)) << column << ", " << row;
@@ -82,11 +82,11 @@ void check_sides(const Scene& scene, const Picture& picture, const ContactResult
 
 /// The middle of the shaft of every contact's arrow is drawn.
 void check_arrows(const Scene& scene, const Picture& picture, const ContactResult& contacts) {
-    ASSERT_GT(contacts.records.size(), 20U);
-    for (const ContactPoint& record : contacts.records) {
+    ASSERT_GT(contacts.points.size(), 20U);
+    for (const ContactPoint& record : contacts.points) {
         const double along = 0.4 * scene.shot.arrow_length;
-        const Vector2 place{record.point.x + along * record.normal.x,
-                            record.point.y + along * record.normal.y};
+        const Vector2 place{record.position.x + along * record.normal.x,
+                            record.position.y + along * record.normal.y};
         EXPECT_TRUE(is_arrow(shown(scene.pixel_at(picture, place))))
             << "no arrow at " << place.x << ", " << place.y;
     }
@@ -98,9 +98,9 @@ void check_samples_drawn(const Scene& scene, const Picture& picture,
                          const IntersectionResult& overlap) {
     ASSERT_GT(overlap.samples.size(), 200U);
     for (const IntersectionSample& sample : overlap.samples) {
-        const Shown what = shown(scene.pixel_at(picture, sample.point));
+        const Shown what = shown(scene.pixel_at(picture, sample.position));
         EXPECT_TRUE(what == Shown::sample || is_arrow(what))
-            << "no dot at " << sample.point.x << ", " << sample.point.y;
+            << "no dot at " << sample.position.x << ", " << sample.position.y;
     }
     const auto dots =
         std::count_if(picture.pixels.begin(), picture.pixels.end(),
@@ -128,7 +128,7 @@ TEST_F(ResidentDrawing, AHostDrawsFieldContactsAndOverlapWithoutAnyReadBack) {
         contacts.on_device = true;
         IntersectionQuery overlap = scene.pair.intersection(IntersectionKind::volume_volume);
         overlap.tolerance = 0.03;
-        overlap.resident = true;
+        overlap.on_device = true;
 
         Batch batch;
         const auto field_handle = batch.add(field);
@@ -136,9 +136,9 @@ TEST_F(ResidentDrawing, AHostDrawsFieldContactsAndOverlapWithoutAnyReadBack) {
         const auto overlap_handle = batch.add(overlap);
         const Expected<Ticket> ticket = context().submit(batch);
         ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
-        const Expected<FieldOnDevice> images = context().resident(*ticket, field_handle);
-        const Expected<PointsOnDevice> records = context().resident(*ticket, contacts_handle);
-        const Expected<SamplesOnDevice> samples = context().resident(*ticket, overlap_handle);
+        const Expected<FieldOnDevice> images = context().on_device(*ticket, field_handle);
+        const Expected<PointsOnDevice> records = context().on_device(*ticket, contacts_handle);
+        const Expected<SamplesOnDevice> samples = context().on_device(*ticket, overlap_handle);
         ASSERT_TRUE(images.has_value() && records.has_value() && samples.has_value());
         // Drawn before anything is collected: nothing has been read back to the CPU.
         const Picture picture = view.draw({*images, *records, *samples}, scene.shot);

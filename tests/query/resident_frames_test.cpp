@@ -44,7 +44,7 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
         field.b.pose.translation.x = 0.01 * number;
         PenetrationQuery depths = pair.penetration();
         depths.b.pose.translation.x = 0.01 * number;
-        depths.resident = true;
+        depths.on_device = true;
         Frame frame;
         frame.field = batch.add(field);
         frame.depths = batch.add(depths);
@@ -56,8 +56,8 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
     Frame former = submit(0);
     for (int number = 1; number < 8; ++number) {
         const Frame next = submit(number);
-        const Expected<FieldOnDevice> field = made->resident(former.ticket, former.field);
-        const Expected<PointsOnDevice> records = made->resident(former.ticket, former.depths);
+        const Expected<FieldOnDevice> field = made->on_device(former.ticket, former.field);
+        const Expected<PointsOnDevice> records = made->on_device(former.ticket, former.depths);
         ASSERT_TRUE(field.has_value() && records.has_value());
         const FieldContents contents = contents_of(*field);
         const RecordsContents depths = contents_of(*records);
@@ -65,7 +65,7 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
         ASSERT_TRUE(made->collect(former.ticket, results).ok());
         check_field(pair, *field, contents, results[former.field]);
         ASSERT_GT(depths.records.size(), 10U);
-        EXPECT_EQ(depths.records.size(), results[former.depths].records.size());
+        EXPECT_EQ(depths.records.size(), results[former.depths].points.size());
         former = next;
     }
     Results results;
@@ -87,12 +87,12 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
             field.on_device = resident;
             const std::vector<Vector2> points{field.rectangle->min};
             PenetrationQuery depths = pair.penetration();
-            depths.resident = resident;
+            depths.on_device = resident;
             ContactQuery contacts = pair.contacts(0.05);
             contacts.on_device = resident;
             Batch batch;
             IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
-            overlap.resident = resident;
+            overlap.on_device = resident;
             batch.add(overlap);
             batch.add(field);
             const auto of_depths = batch.add(depths);
@@ -104,7 +104,7 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
             const Expected<Ticket> ticket = made->submit(batch);
             EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
             EXPECT_TRUE(made->collect(*ticket, results).ok());
-            records = results[of_depths].records.size();
+            records = results[of_depths].points.size();
             return all_numbers(without_regions(std::move(results)));
         };
         std::size_t with = 0;
@@ -149,9 +149,9 @@ TEST_F(Resident, RefusesByName) {
     PenetrationQuery depths{here, here, 0.1};
     PenetrationQuery by_cpu = depths;
     by_cpu.technique = Technique::cpu;
-    by_cpu.resident = true;
+    by_cpu.on_device = true;
     ContactQuery gradients{here, here, 0.1, 0.1, ContactNormals::gradient};
-    gradients.resident = true;
+    gradients.on_device = true;
     DistanceFieldQuery field;
     field.technique = Technique::raster;
     field.b = here;
@@ -178,21 +178,21 @@ TEST_F(Resident, RefusesByName) {
         EXPECT_EQ(answer.error().code(), code) << answer.error().text();
         EXPECT_NE(answer.error().message().find(words), std::string::npos) << answer.error().text();
     };
-    EXPECT_TRUE(context().resident(*ticket, good).has_value());
-    expect(context().resident(*ticket, not_resident), StatusCode::invalid_query, "did not ask");
-    expect(context().resident(*ticket, of_cpu), StatusCode::invalid_query, "technique cpu");
-    expect(context().resident(*ticket, of_gradients), StatusCode::invalid_query, "analytic");
-    expect(context().resident(*ticket, of_huge), StatusCode::too_large, "an image of this device");
-    expect(context().resident(*ticket, of_far), StatusCode::invalid_query, "single precision");
-    expect(context().resident(*ticket, QueryHandle<PenetrationQuery>{99}),
+    EXPECT_TRUE(context().on_device(*ticket, good).has_value());
+    expect(context().on_device(*ticket, not_resident), StatusCode::invalid_query, "did not ask");
+    expect(context().on_device(*ticket, of_cpu), StatusCode::invalid_query, "technique cpu");
+    expect(context().on_device(*ticket, of_gradients), StatusCode::invalid_query, "analytic");
+    expect(context().on_device(*ticket, of_huge), StatusCode::too_large, "an image of this device");
+    expect(context().on_device(*ticket, of_far), StatusCode::invalid_query, "single precision");
+    expect(context().on_device(*ticket, QueryHandle<PenetrationQuery>{99}),
            StatusCode::invalid_query, "none of the batch");
-    expect(context().resident(*ticket, QueryHandle<PenetrationQuery>{good.index}),
+    expect(context().on_device(*ticket, QueryHandle<PenetrationQuery>{good.index}),
            StatusCode::invalid_query, "another kind");
-    expect(context().resident(Ticket{}, good), StatusCode::unknown_ticket, "ticket");
+    expect(context().on_device(Ticket{}, good), StatusCode::unknown_ticket, "ticket");
     Results results;
     ASSERT_TRUE(context().collect(*ticket, results).ok());
     EXPECT_EQ(results[of_cpu].status.code(), StatusCode::invalid_query);
-    expect(context().resident(*ticket, good), StatusCode::unknown_ticket, "ticket");
+    expect(context().on_device(*ticket, good), StatusCode::unknown_ticket, "ticket");
     EXPECT_TRUE(context().remove_shape(shape).ok());
 }
 

@@ -54,7 +54,7 @@ protected:
         ContactQuery contacts{a, b, tolerance, 0.05};
         IntersectionQuery overlap{a, b, tolerance};
         depths.technique = contacts.technique = overlap.technique = Technique::raster;
-        depths.resident = contacts.on_device = overlap.resident = true;
+        depths.on_device = contacts.on_device = overlap.on_device = true;
         IntersectionQuery counted = overlap;
         counted.samples_on_device = false;
         asked.field = asked.batch.add(field);
@@ -101,11 +101,11 @@ TEST_F(ResidentLayout, HeadersSayWhatThereIs) {
         const Asked asked = ask(angle);
         const Expected<Ticket> ticket = made().submit(asked.batch);
         ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
-        const auto field = made().resident(*ticket, asked.field);
-        const auto depths = made().resident(*ticket, asked.depths);
-        const auto contacts = made().resident(*ticket, asked.contacts);
-        const auto overlap = made().resident(*ticket, asked.overlap);
-        const auto counted = made().resident(*ticket, asked.counted);
+        const auto field = made().on_device(*ticket, asked.field);
+        const auto depths = made().on_device(*ticket, asked.depths);
+        const auto contacts = made().on_device(*ticket, asked.contacts);
+        const auto overlap = made().on_device(*ticket, asked.overlap);
+        const auto counted = made().on_device(*ticket, asked.counted);
         ASSERT_TRUE(field && depths && contacts && overlap && counted);
         const auto header = [&](const auto& output) {
             return reader().read(output.header, depths->state);
@@ -183,8 +183,8 @@ TEST_F(ResidentLayout, IsKnownBeforeTheFirstFrame) {
         const Expected<Ticket> submitted = made().submit(asked.batch);
         ASSERT_TRUE(submitted.has_value()) << submitted.error().text();
         ticket = *submitted;
-        const auto field = made().resident(ticket, asked.field);
-        const auto near = made().resident(ticket, asked.contacts);
+        const auto field = made().on_device(ticket, asked.field);
+        const auto near = made().on_device(ticket, asked.contacts);
         ASSERT_TRUE(field && near);
         const std::uint32_t slot = field->slot.index;
         ASSERT_LT(slot, frames);
@@ -200,7 +200,7 @@ TEST_F(ResidentLayout, IsKnownBeforeTheFirstFrame) {
     const Asked finer = ask(0.0, 0.01);
     const Expected<Ticket> ticket = made().submit(finer.batch);
     ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
-    const auto grown = made().resident(*ticket, finer.field);
+    const auto grown = made().on_device(*ticket, finer.field);
     ASSERT_TRUE(grown.has_value());
     EXPECT_NE(grown->slot.revision, (*fields)[grown->slot.index].slot.revision);
     EXPECT_TRUE(made().collect(*ticket, results).ok());
@@ -248,7 +248,7 @@ struct PosedQueries {
         ContactQuery near{{moving, pose}, fixed, 0.02, 3.0};
         IntersectionQuery common{{moving, pose}, fixed, 0.02};
         near.technique = common.technique = Technique::raster;
-        near.resident = common.resident = true;
+        near.on_device = common.on_device = true;
         contacts = batch.add(near);
         overlap = batch.add(common);
     }
@@ -281,15 +281,15 @@ TEST_F(ResidentLayout, SizesStayWithinTheBoundOfAllPoses) {
         const PosedQueries asked(moving, pose, fixed);
         const Expected<Ticket> ticket = made().submit(asked.batch);
         ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
-        const std::array<PointsOnDevice, 3> records{*made().resident(*ticket, asked.depths),
-                                                    *made().resident(*ticket, asked.vertices),
-                                                    *made().resident(*ticket, asked.contacts)};
+        const std::array<PointsOnDevice, 3> records{*made().on_device(*ticket, asked.depths),
+                                                    *made().on_device(*ticket, asked.vertices),
+                                                    *made().on_device(*ticket, asked.contacts)};
         for (std::size_t kind = 0; kind < records.size(); ++kind) {
             EXPECT_EQ(records[kind].max_size, bounds[kind].max_size) << kind;
             EXPECT_LE(records[kind].size, bounds[kind].max_size) << kind;
             greatest[kind] = std::max(greatest[kind], records[kind].size);
         }
-        const SamplesOnDevice samples = *made().resident(*ticket, asked.overlap);
+        const SamplesOnDevice samples = *made().on_device(*ticket, asked.overlap);
         const double side = diameter(rings) / samples.cell + 1.0;
         EXPECT_LE(samples.capacity, side * side);
         Results results;
@@ -315,7 +315,7 @@ TEST_F(ResidentLayout, IsRefusedByName) {
     ASSERT_TRUE(ticket.has_value());
     EXPECT_EQ(made().layout_on_device(asked.batch, asked.field).error().code(),
               StatusCode::not_ready);
-    EXPECT_NE(message(made().resident(*ticket, foreign)).find("of another batch"),
+    EXPECT_NE(message(made().on_device(*ticket, foreign)).find("of another batch"),
               std::string::npos);
     Results results;
     EXPECT_TRUE(made().collect(*ticket, results).ok());
@@ -338,7 +338,7 @@ TEST_F(ResidentLayout, TrimGivesBackWhatGrowthLeft) {
     const Expected<Ticket> in_flight = made().submit(small.batch);
     ASSERT_TRUE(in_flight.has_value());
     made().trim();
-    const auto field = made().resident(*in_flight, small.field);
+    const auto field = made().on_device(*in_flight, small.field);
     ASSERT_TRUE(field.has_value());
     EXPECT_GT(contents_of(*field).values.size(), 100U);
     Results results;

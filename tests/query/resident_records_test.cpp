@@ -30,13 +30,13 @@ struct Claim {
 };
 
 Claim claim_of(const PenetratingPoint& record) {
-    return {record.point,   record.nearest, record.direction, record.depth,
-            record.feature, true,           record.unique,    Side::a};
+    return {record.position, record.nearest, record.direction, record.depth,
+            record.feature,  true,           record.unique,    Side::a};
 }
 
 Claim claim_of(const ContactPoint& record) {
-    return {record.point,   record.nearest, record.normal, record.distance,
-            record.feature, record.inside,  record.unique, record.on};
+    return {record.position, record.nearest, record.normal, record.distance,
+            record.feature,  record.inside,  record.unique, record.on};
 }
 
 void check_record(const PlacedPair& pair, const PointsOnDevice& resident,

@@ -61,13 +61,13 @@ void check_kept_sample(const PlacedPair& pair, Kept& kept, std::size_t i) {
     const SampleContents& sample = kept.contents.samples[i];
     const IntersectionSample& expected = kept.result.samples[i];
     const double bound = kept.resident.error_bound;
-    ASSERT_LE(per_axis(sample.point, expected.point), bound) << "sample " << i;
+    ASSERT_LE(per_axis(sample.point, expected.position), bound) << "sample " << i;
     ASSERT_LT(sample.region, kept.result.regions.size());
     ASSERT_TRUE(holds(kept.result.regions[sample.region], sample.point)) << "sample " << i;
     if (sample.edge != expected.edge) {
         ASSERT_LT(sample.edge, pair.a().size()) << "sample " << i;
         const auto distance = [&](std::uint32_t edge) {
-            return pair.a().nearest_on_edge(edge, expected.point).distance;
+            return pair.a().nearest_on_edge(edge, expected.position).distance;
         };
         ASSERT_LE(std::abs(distance(sample.edge) - distance(expected.edge)), 2.0 * bound)
             << "sample " << i << " names edge " << sample.edge << " and " << expected.edge;
@@ -262,7 +262,7 @@ TEST_F(ResidentIntersections, OfManyQueriesInFlightEachHasItsOwn) {
         Batch batch;
         for (const PlacedPair* const pair : {&drawn, &computed}) {
             PenetrationQuery depths = pair->penetration();
-            depths.resident = true;
+            depths.on_device = true;
             depths.tolerance = 0.02;
             batch.add(depths);
             for (const IntersectionKind kind : kinds_of_samples) {
@@ -283,7 +283,7 @@ TEST_F(ResidentIntersections, OfManyQueriesInFlightEachHasItsOwn) {
         std::vector<Kept> kept(8);
         for (std::uint32_t i = 0; i < 8; ++i) {
             if (i % 4 != 0) {
-                const auto resident = made->resident(former, QueryHandle<IntersectionQuery>{i});
+                const auto resident = made->on_device(former, QueryHandle<IntersectionQuery>{i});
                 ASSERT_TRUE(resident.has_value()) << resident.error().text();
                 kept[i].resident = *resident;
                 kept[i].contents = contents_of(*resident);
@@ -321,7 +321,7 @@ TEST_F(ResidentIntersections, RecordedIntoAHostsCommandsTheyAreTheSame) {
                 made->record(batch, {.commands = commands, .frame = number});
             ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
             host.submit(number);
-            const auto resident = made->resident(*ticket, handle);
+            const auto resident = made->on_device(*ticket, handle);
             ASSERT_TRUE(resident.has_value()) << resident.error().text();
             Kept kept{*resident, contents_of(*resident), {}, 0};
             host.wait(number);
@@ -351,7 +351,7 @@ TEST_F(ResidentIntersections, RefusesByName) {
     ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
     const auto expect = [&](const QueryHandle<IntersectionQuery>& handle, StatusCode code,
                             const char* words) {
-        const auto answer = context().resident(*ticket, handle);
+        const auto answer = context().on_device(*ticket, handle);
         EXPECT_FALSE(answer.has_value());
         EXPECT_EQ(answer.error().code(), code) << answer.error().text();
         EXPECT_NE(answer.error().message().find(words), std::string::npos) << answer.error().text();

@@ -160,7 +160,7 @@ TEST_F(TargetRefusals, OfBuffers) {
     expect(run_alone(context(), contacts).status, "the records may take");
     IntersectionQuery overlap{query.a, query.b, query.tolerance};
     overlap.technique = Technique::raster;
-    overlap.resident = true;
+    overlap.on_device = true;
     overlap.target = &small;
     expect(run_alone(context(), overlap).status, "the samples may take");
     overlap.samples_on_device = false;  // the summary has room

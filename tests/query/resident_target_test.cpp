@@ -142,7 +142,7 @@ TEST_F(ResidentTarget, FieldsEqualThoseInOwnImages) {
                 },
                 [&](VkCommandBuffer commands, Ticket ticket) {
                     target = {};  // it was borrowed for the call alone
-                    const auto field = made().resident(ticket, handle);
+                    const auto field = made().on_device(ticket, handle);
                     ASSERT_TRUE(field.has_value()) << field.error().text();
                     EXPECT_EQ(field->signed_distance.image, distance.target().image);
                     EXPECT_EQ(field->feature.image, feature.target().image);
@@ -176,7 +176,7 @@ TEST_F(ResidentTarget, OneImageMayBeTheHosts) {
         (void)record(
             batch, [&](VkCommandBuffer commands) { image.fill(commands); },
             [&](VkCommandBuffer commands, Ticket ticket) {
-                field = *made().resident(ticket, handle);
+                field = *made().on_device(ticket, handle);
                 image.use(commands);
             });
         EXPECT_GE(field.image_extent.width, field.width);
@@ -202,7 +202,7 @@ void ResidentTarget::expect_same_in_buffer(const Query& asked, std::size_t words
     const Results results = record(
         batch, [&](VkCommandBuffer commands) { buffer.fill(commands); },
         [&](VkCommandBuffer commands, Ticket ticket) {
-            const auto output = made().resident(ticket, handle);
+            const auto output = made().on_device(ticket, handle);
             ASSERT_TRUE(output.has_value()) << output.error().text();
             EXPECT_EQ(output->buffer, buffer.target().buffer);
             EXPECT_EQ(output->offset, buffer.target().offset);
@@ -233,7 +233,7 @@ TEST_F(ResidentTarget, RecordsAndSamplesEqualThoseInTheOwnBuffer) {
         ContactQuery contacts = pair.contacts(0.05);
         IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
         IntersectionQuery edges = pair.intersection(IntersectionKind::boundary_volume);
-        depths.resident = contacts.on_device = overlap.resident = edges.resident = true;
+        depths.on_device = contacts.on_device = overlap.on_device = edges.on_device = true;
         expect_same_in_buffer(depths, sizeof(RecordData) / 4);
         expect_same_in_buffer(contacts, sizeof(RecordData) / 4);
         expect_same_in_buffer(overlap, sizeof(IntersectionSampleData) / 4);

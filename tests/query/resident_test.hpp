@@ -32,7 +32,7 @@ protected:
         const Expected<Ticket> ticket = context.submit(batch);
         EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
         if (ticket.has_value()) {
-            const auto resident = context.resident(*ticket, handle);
+            const auto resident = context.on_device(*ticket, handle);
             EXPECT_TRUE(resident.has_value()) << resident.error().text();
             if (resident.has_value()) {
                 read(*resident);

@@ -116,7 +116,7 @@ TEST_F(SteadyStateOfWorlds, DevicePairsAtPosesOfTheHostAllocateAndCreateNothing)
     std::size_t read = 0;
     expect_nothing_made(200, [&](int) {
         bool ok =
-            world->submit(table, at_poses(poses)).ok() && table.resident() && table.collect().ok();
+            world->submit(table, at_poses(poses)).ok() && table.on_device() && table.collect().ok();
         for (const auto& row : table.rows()) {
             read += table.points(row).size();
         }

@@ -109,9 +109,9 @@ TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {
         const Expected<Ticket> ticket = watched().submit(batch);
         const bool exported =
             ticket.has_value() &&
-            watched().resident(*ticket, QueryHandle<DistanceFieldQuery>{0}).has_value() &&
-            watched().resident(*ticket, QueryHandle<PenetrationQuery>{2}).has_value() &&
-            watched().resident(*ticket, QueryHandle<IntersectionQuery>{4}).has_value();
+            watched().on_device(*ticket, QueryHandle<DistanceFieldQuery>{0}).has_value() &&
+            watched().on_device(*ticket, QueryHandle<PenetrationQuery>{2}).has_value() &&
+            watched().on_device(*ticket, QueryHandle<IntersectionQuery>{4}).has_value();
         const bool ok = exported && (former == Ticket{} || watched().collect(former, results).ok());
         former = ticket.has_value() ? *ticket : Ticket{};
         return ok;

@@ -60,7 +60,7 @@ test_support::VulkanHost* Strategies::host_ = nullptr;
 Context* Strategies::context_ = nullptr;
 
 Rectangle box_of(const std::vector<IntersectionSample>& samples) {
-    Rectangle box{samples.front().point, samples.front().point};
+    Rectangle box{samples.front().position, samples.front().position};
     for (const IntersectionSample& sample : samples) {
         box.min = {std::min(box.min.x, sample.position.x), std::min(box.min.y, sample.position.y)};
         box.max = {std::max(box.max.x, sample.position.x), std::max(box.max.y, sample.position.y)};
@@ -216,7 +216,7 @@ TEST_F(Strategies, MixInOneBatch) {
         const PlacedPair& placed = pairs.emplace_back(*context_, std::move(pair));
         IntersectionQuery query = placed.intersection(every_kind[handles.size() % 3]);
         query.strategy = every_strategy[(handles.size() / 3) % 4];
-        query.records = handles.size() % 2 == 0;
+        query.summary_only = !handles.size() % 2 == 0;
         query.technique = handles.size() % 5 < 2 ? Technique::compute : Technique::raster;
         handles.push_back(batch.add(query));
         batch.add(placed.penetration());

@@ -110,7 +110,7 @@ protected:
                 },
                 [&](const PenetratingPoint& touching) {
                     EXPECT_LE(touching.depth, 1e-3 * d)
-                        << touching.point.x << ", " << touching.point.y;
+                        << touching.position.x << ", " << touching.position.y;
                 });
 
             query.summary_only = true;
@@ -143,7 +143,7 @@ protected:
                 [&](const ContactPoint& i, const ContactPoint& j) {
                     EXPECT_LE(std::abs(i.distance - j.distance), 1e-3 * d);
                     EXPECT_TRUE(i.inside == j.inside || i.distance <= 1e-3 * d)
-                        << i.point.x << ", " << i.point.y << " at " << i.distance;
+                        << i.position.x << ", " << i.position.y << " at " << i.distance;
                 },
                 [&](const ContactPoint& on_the_limit) {
                     EXPECT_GE(on_the_limit.distance, near - 1e-3 * d);

@@ -89,17 +89,17 @@ TEST_F(Tiles, HoldWhatTheyWereMadeFor) {
             }));
             // By compute, the device searches for points without tiles.
             const bool have_tiles = technique == Technique::raster;
-            for (const PenetratingPoint& record : results[penetration].records) {
+            for (const PenetratingPoint& record : results[penetration].points) {
                 EXPECT_EQ(any_holds(tiles, penetration.index, Side::a, record.position),
                           have_tiles);
             }
-            for (const ContactPoint& record : results[contacts].records) {
+            for (const ContactPoint& record : results[contacts].points) {
                 EXPECT_EQ(any_holds(tiles, contacts.index, record.on, record.position), have_tiles);
             }
             for (const IntersectionSample& sample : results[samples].samples) {
                 EXPECT_TRUE(any_holds(tiles, samples.index, Side::a, sample.position));
             }
-            records += results[penetration].records.size() + results[contacts].records.size();
+            records += results[penetration].points.size() + results[contacts].points.size();
         }
         EXPECT_GT(records, 100U);
     }

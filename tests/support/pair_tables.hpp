@@ -30,19 +30,19 @@ inline constexpr PairTableOptions of_list{.listed = true, .technique = Technique
     return {.poses = &poses};
 }
 
-/// The records of the row with this index.
+/// The points of the row with this index.
 template <class Query>
-[[nodiscard]] std::vector<typename PairTable<Query>::Record> records_of(PairTable<Query>& table,
-                                                                        std::uint32_t index) {
+[[nodiscard]] std::vector<typename PairTable<Query>::Point> points_of(PairTable<Query>& table,
+                                                                      std::uint32_t index) {
     const Expected<PairRow<Query>> row = table.row(index);
     EXPECT_TRUE(row.has_value()) << row.error().text();
     if (!row.has_value()) {
         return {};
     }
-    const auto records = table.points(*row);
+    const auto points = table.points(*row);
     EXPECT_TRUE(table.read_status().ok()) << table.read_status().text();
-    EXPECT_EQ(records.size(), row->record_count);
-    return {records.begin(), records.end()};
+    EXPECT_EQ(points.size(), row->point_count);
+    return {points.begin(), points.end()};
 }
 
 /// The manifold of the row with this index.

@@ -83,6 +83,7 @@ protected:
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-variable"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
 TEST_F(QueryExamples, CompileAndRun) {
 #include <examples/query.hpp>
     EXPECT_EQ(deepest, 0.5);

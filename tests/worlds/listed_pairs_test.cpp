@@ -102,7 +102,7 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
         const PairRow<PenetrationQuery>& row = rows[i];
         EXPECT_EQ(row.a, a[i]);
         EXPECT_EQ(row.b, b[i]);
-        EXPECT_EQ(row.record_count, result.points.size());
+        EXPECT_EQ(row.point_count, result.points.size());
         EXPECT_EQ(row.status, result.status.code()) << result.status.text();
         if (row.status != StatusCode::ok) {
             continue;
@@ -137,7 +137,7 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
             EXPECT_EQ(hit.a, row.a);
             EXPECT_EQ(hit.b, row.b);
             EXPECT_EQ(hit.index, next);
-            EXPECT_EQ(hits.records(hit).size(), table.points(row).size());
+            EXPECT_EQ(hits.points(hit).size(), table.points(row).size());
             ++next;
         }
     }

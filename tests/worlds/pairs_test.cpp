@@ -97,7 +97,7 @@ Numbers numbers_of(PairTable<Query>& table) {
                        {static_cast<double>(row.a.index), static_cast<double>(row.a.generation),
                         static_cast<double>(row.b.index), static_cast<double>(row.b.generation),
                         static_cast<double>(row.status), row.intersects ? 1.0 : 0.0,
-                        row.error_bound, static_cast<double>(row.record_count)});
+                        row.error_bound, static_cast<double>(row.point_count)});
         add(numbers, static_cast<const typename Query::Result::Values&>(row));
         for (const auto& record : table.points(row)) {
             add(numbers, record);
@@ -373,7 +373,7 @@ TEST(PairTables, AreSubmittedAndCollected) {
     EXPECT_FALSE(table.row(table.size()).has_value());
     EXPECT_GE(table.timings().total, table.timings().decode);
     EXPECT_EQ(scene.world().record(table, {}).code(), StatusCode::invalid_submission);
-    EXPECT_EQ(table.resident().error().code(), StatusCode::invalid_query);
+    EXPECT_EQ(table.on_device().error().code(), StatusCode::invalid_query);
 }
 
 /// Reach is no property of a hit, but of distances.

@@ -94,7 +94,7 @@ TEST_F(CpuContext, RefusesWhatNeedsADeviceInTheResultsOfThoseQueriesAlone) {
     field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
     const auto raster = refused(penetration, [](auto& q) { q.technique = Technique::raster; });
     const auto compute = refused(penetration, [](auto& q) { q.technique = Technique::compute; });
-    const auto resident = refused(penetration, [](auto& q) { q.resident = true; });
+    const auto resident = refused(penetration, [](auto& q) { q.on_device = true; });
     const auto blended = refused(field, [](auto& q) {
         q.gradients = true;
         q.gradient = GradientMethod::blended;
@@ -115,7 +115,7 @@ TEST_F(CpuContext, RefusesWhatNeedsADeviceInTheResultsOfThoseQueriesAlone) {
     EXPECT_GT(results[answered].count, 0U);
     const Expected<Ticket> ticket = context.submit(batch);
     ASSERT_TRUE(ticket.has_value());
-    EXPECT_EQ(context.resident(*ticket, resident).error().code(),
+    EXPECT_EQ(context.on_device(*ticket, resident).error().code(),
               StatusCode::unsupported_technique);
     EXPECT_TRUE(context.is_ready(*ticket));
     ASSERT_TRUE(context.collect(*ticket, results).ok());
@@ -267,7 +267,7 @@ TEST_F(TechniqueSettings, AutomaticChoosesAmongThoseThatAreThere) {
     const PenetrationQuery query{{shapes.a, {}}, {shapes.b, {}}, 0.1};
     EXPECT_NE(context.answer(query)->technique, Technique::raster);
     PenetrationQuery resident = query;
-    resident.resident = true;
+    resident.on_device = true;
     EXPECT_EQ(context.answer(resident)->technique, Technique::compute);
     DistanceFieldQuery blended;
     blended.b = query.b;

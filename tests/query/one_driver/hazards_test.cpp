@@ -59,7 +59,7 @@ protected:
         Batch batch = every_query(a_, b_, 0, recordable);
         IntersectionQuery watched{{a_, {}}, {b_, {{0.7, 0.0}, 0.3}}, 0.005};
         watched.technique = Technique::raster;
-        watched.records = false;
+        watched.summary_only = true;
         batch.add(watched);
         return batch;
     }

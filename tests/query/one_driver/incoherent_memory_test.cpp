@@ -85,7 +85,7 @@ protected:
         EXPECT_GT(table.size(), 0U);
         for (std::uint32_t row = 0; row < table.size(); ++row) {
             numbers.push_back(table.row(row)->deepest.depth);
-            for (const PenetratingPoint& record : records_of(table, row)) {
+            for (const PenetratingPoint& record : points_of(table, row)) {
                 numbers.push_back(record.depth);
             }
         }

@@ -101,7 +101,7 @@ TEST_F(MemoryLimit, LeavesPenetrationAsItIs) {
         expect_same(result.points, other.points);
 
         PenetrationQuery summary = scarce.penetration();
-        summary.points = false;
+        summary.summary_only = true;
         expect_same_summary(result, run_alone(little, summary));
     });
 }
