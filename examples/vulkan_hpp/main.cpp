@@ -262,7 +262,7 @@ int run() {
         frame.contacts = batch.add(contacts_at(a, b, 0.5 + 0.05 * static_cast<double>(number)));
         frame.ticket =
             value_of(context.record(batch, {.commands = *frame.commands, .frame = number}));
-        const auto contacts = value_of(context.resident(frame.ticket, frame.contacts));
+        const auto contacts = value_of(context.on_device(frame.ticket, frame.contacts));
         frame.slot = contacts.slot.index;
         Slot& slot = slots[frame.slot];
         if (contacts.slot.revision != slot.revision) {

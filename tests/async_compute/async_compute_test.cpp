@@ -88,11 +88,11 @@ struct ResidentBatch {
         wanted.rectangle = Rectangle{{-1.0, -1.0}, {2.0, 1.0}};
         wanted.values = false;
         wanted.technique = Technique::compute;
-        wanted.resident = true;
+        wanted.on_device = true;
         field = batch.add(wanted);
         ContactQuery contact{{scene.a, {}}, there, 0.02, 0.05};
         contact.technique = Technique::compute;
-        contact.resident = true;
+        contact.on_device = true;
         contacts = batch.add(contact);
     }
 
@@ -142,8 +142,8 @@ protected:
         for (int i = 0; i < frames; ++i) {
             const ResidentBatch asked(scene, i);
             const Expected<Ticket> ticket = scene.context->submit(asked.batch);
-            all.push_back(read(gpu, *scene.context->resident(*ticket, asked.field),
-                               *scene.context->resident(*ticket, asked.contacts)));
+            all.push_back(read(gpu, *scene.context->on_device(*ticket, asked.field),
+                               *scene.context->on_device(*ticket, asked.contacts)));
             static_cast<void>(scene.numbers(ticket));
         }
         return all;
@@ -188,8 +188,8 @@ TEST_F(AsyncCompute, IsReadByTheFamilyThatDrawsAfterASemaphore) {
         const Expected<Ticket> ticket = scene.context->submit(asked.batch, {.signals = {&done, 1}});
         ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
         gpu.wait_for(done.semaphore);
-        EXPECT_EQ(read(gpu, *scene.context->resident(*ticket, asked.field),
-                       *scene.context->resident(*ticket, asked.contacts)),
+        EXPECT_EQ(read(gpu, *scene.context->on_device(*ticket, asked.field),
+                       *scene.context->on_device(*ticket, asked.contacts)),
                   wanted[static_cast<std::size_t>(i)]);
         static_cast<void>(scene.numbers(ticket));
     }
@@ -235,8 +235,8 @@ TEST_F(AsyncCompute, IsReadByTheFamilyThatDrawsAfterATransferOfOwnership) {
         compute.signal(done);
         compute.submit([&](VkCommandBuffer commands) {
             ticket = *scene.context->record(asked.batch, {.commands = commands, .frame = frame});
-            field = *scene.context->resident(ticket, asked.field);
-            records = *scene.context->resident(ticket, asked.contacts);
+            field = *scene.context->on_device(ticket, asked.field);
+            records = *scene.context->on_device(ticket, asked.contacts);
             EXPECT_EQ(field->state.queue_family, from);
             transfer(compute, commands, *field, *records, from, to);
         });

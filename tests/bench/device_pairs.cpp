@@ -198,7 +198,7 @@ int main(int count, char** arguments) {
         compare_all(context, SeparationQuery{.tolerance = 0.03}, shows_passes);
         ContactQuery contacts{.tolerance = 0.03, .contact_distance = 0.05, .summary_only = false};
         compare(context, 1'000, 50.0, contacts, 20, shows_passes);
-        contacts.points = false;
+        contacts.summary_only = true;
         compare_all(context, contacts, shows_passes);
         for (const PenetrationPoints points :
              {PenetrationPoints::vertices, PenetrationPoints::boundary}) {

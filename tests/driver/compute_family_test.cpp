@@ -136,8 +136,8 @@ States states(OnFamily& on) {
     const auto contacts_handle = batch.add(contacts);
     const Expected<Ticket> ticket = on.context().submit(batch);
     EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
-    const States found{on.context().resident(*ticket, field_handle)->state,
-                       on.context().resident(*ticket, contacts_handle)->state};
+    const States found{on.context().on_device(*ticket, field_handle)->state,
+                       on.context().on_device(*ticket, contacts_handle)->state};
     Results results;
     EXPECT_TRUE(on.context().collect(*ticket, results).ok());
     return found;

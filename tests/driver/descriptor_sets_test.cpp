@@ -42,7 +42,7 @@ TEST(DescriptorSets, NameNothingThatIsGone) {
         if (i % 4 == 2) {
             IntersectionQuery overlap{a, b, tolerance};
             overlap.technique = Technique::compute;
-            overlap.resident = overlap.samples_on_device = true;
+            overlap.on_device = overlap.samples_on_device = true;
             batch.add(overlap);
         }
         const Status status = context->run(batch, results);

@@ -69,7 +69,7 @@ public:
     void expect_to_work() override {
         DeviceWorld::expect_to_work();
         EXPECT_EQ(table_.candidates(), pairs_found);
-        const Expected<PairsOnDevice> resident = table_.resident();
+        const Expected<PairsOnDevice> resident = table_.on_device();
         ASSERT_EQ(resident.has_value(), are_resident());
         if (!are_resident()) {
             return;

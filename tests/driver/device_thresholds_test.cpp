@@ -85,7 +85,7 @@ TEST_F(DeviceThresholdsOf, HardwareAreThoseOfTheSettings) {
 TEST_F(DeviceThresholdsOf, HardwareAreManyPairsAndCellsByDefault) {
     make(VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, {});
     auto pair = query<PenetrationQuery>();
-    pair.records = false;
+    pair.summary_only = true;
     pair.points = PenetrationPoints::vertices;
     EXPECT_EQ(chosen(std::vector<AnyQuery>(1999, pair)), Technique::cpu);
     EXPECT_EQ(chosen(std::vector<AnyQuery>(2000, pair)), Technique::compute);
@@ -102,7 +102,7 @@ TEST_F(DeviceThresholdsOf, SoftwareAreNone) {
     make(VK_PHYSICAL_DEVICE_TYPE_CPU, {.device_thresholds = {.pairs = 0, .cells = 0}});
     EXPECT_EQ(chosen({query<PenetrationQuery>(), query<DistanceFieldQuery>()}), Technique::cpu);
     auto resident = query<PenetrationQuery>();
-    resident.resident = true;
+    resident.on_device = true;
     EXPECT_EQ(chosen({resident}), Technique::compute);
 }
 

@@ -63,7 +63,7 @@ void expect_lost(World& world, Ticket in_flight) {
     const Recording recording{.commands = world.driver().begin_commands(), .frame = 100};
     EXPECT_EQ(context.record(world.recordable(8), recording).error().code(),
               StatusCode::device_lost);
-    EXPECT_EQ(context.resident(in_flight, QueryHandle<ContactQuery>{}).error().code(),
+    EXPECT_EQ(context.on_device(in_flight, QueryHandle<ContactQuery>{}).error().code(),
               StatusCode::device_lost);
     context.frame_completed(recording.frame);
     EXPECT_TRUE(context.is_ready(in_flight));

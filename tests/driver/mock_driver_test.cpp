@@ -88,7 +88,7 @@ TEST(MockDriver, CopiesWhatStaysOnTheDeviceToWhereTheHostReadsIt) {
             const Status status = world.context().run(batch, results);
             EXPECT_TRUE(status.ok()) << status.text();
             std::set<std::uint32_t> found;
-            for (const PenetratingPoint& record : results[handle].records) {
+            for (const PenetratingPoint& record : results[handle].points) {
                 found.insert(record.feature.index);
             }
             return found;

@@ -53,7 +53,7 @@ protected:
         PenetrationQuery penetration{a, b, 0.1};
         penetration.technique = Technique::compute;
         PenetrationQuery resident = penetration;
-        resident.resident = true;
+        resident.on_device = true;
         IntersectionQuery intersection{a, b, 0.1};
         intersection.technique = Technique::compute;
         DistanceFieldQuery field{a, b, 0.1};

@@ -191,7 +191,7 @@ bool World::is_usable(const Resident& resident) const {
 
 template <class Query>
 Status World::look_at_resident(QueryHandle<Query> handle) {
-    const auto resident = context_->resident(ticket_, handle);
+    const auto resident = context_->on_device(ticket_, handle);
     if (!resident.has_value()) {
         return resident.error();
     }

@@ -33,7 +33,7 @@ bool is_empty(const AnyResult& any) {
                 return result.samples.empty() && result.count == 0;
             } else if constexpr (requires { result.manifold; }) {
                 return result.points.empty() && result.manifold.empty() && result.count == 0;
-            } else if constexpr (requires { result.points; }) {
+            } else if constexpr (requires { result.deepest; }) {
                 return result.points.empty() && result.count == 0;
             } else if constexpr (requires { result.values; }) {
                 return result.values.empty() && result.features.empty() && result.points.empty() &&

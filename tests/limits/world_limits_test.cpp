@@ -220,7 +220,7 @@ std::vector<NamedQuery> all_queries() {
     penetration.tolerance = 0.02;
     PenetrationQuery vertices = penetration;
     vertices.points = PenetrationPoints::vertices;
-    vertices.points = false;
+    vertices.summary_only = true;
     ContactQuery contacts;
     contacts.tolerance = 0.02;
     contacts.contact_distance = 0.05;

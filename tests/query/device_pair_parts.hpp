@@ -134,10 +134,11 @@ protected:
 private:
     template <class Query>
     static void add_lists(PairTable<Query>& table, std::uint32_t row, std::vector<double>& all) {
-        if constexpr (requires { table.query().records; }) {
-            if (table.query().records) {
+        if constexpr (requires { table.query().summary_only; }) {
+            if (!table.query().summary_only) {
                 for (const auto& one : points_of(table, row)) {
-                    all.insert(all.end(), {one.point.x, one.point.y, one.nearest.x, one.nearest.y});
+                    all.insert(all.end(),
+                               {one.position.x, one.position.y, one.nearest.x, one.nearest.y});
                 }
             }
         }

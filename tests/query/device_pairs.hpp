@@ -178,9 +178,8 @@ protected:
             using Values = typename Query::Result::Values;
             expect_equal(static_cast<const Values&>(found), static_cast<const Values&>(truth),
                          tolerance);
-            if constexpr (requires { tables.cpu.query().records; }) {
-                expect_all_equal(tables.device.records(found), tables.cpu.records(truth),
-                                 tolerance);
+            if constexpr (requires { tables.cpu.query().summary_only; }) {
+                expect_all_equal(tables.device.points(found), tables.cpu.points(truth), tolerance);
             }
             if constexpr (std::is_same_v<Query, ContactQuery>) {
                 expect_all_equal(tables.device.manifold(found), tables.cpu.manifold(truth),

@@ -93,9 +93,9 @@ Batch resident_queries(const Batch& every) {
     for (const AnyQuery& query : every.queries()) {
         std::visit(
             [&](auto kept) {
-                if constexpr (requires { kept.resident; }) {
+                if constexpr (requires { kept.on_device; }) {
                     if (kept.technique != Technique::cpu) {
-                        kept.resident = true;
+                        kept.on_device = true;
                         batch.add(kept);
                     }
                 }

@@ -152,9 +152,9 @@ Status DevicePairRunner::read_row(PairTable<Query>& table, std::uint32_t index, 
         const auto manifold = table.manifold(*row);
         result.manifold.assign(manifold.begin(), manifold.end());
     }
-    if constexpr (requires { result.records; }) {
-        const auto records = table.records(*row);
-        result.records.assign(records.begin(), records.end());
+    if constexpr (requires { result.points; }) {
+        const auto points = table.points(*row);
+        result.points.assign(points.begin(), points.end());
     }
     return table.read_status();
 }

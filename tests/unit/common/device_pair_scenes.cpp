@@ -47,8 +47,8 @@ Found found_in(const SceneAnswer& answer) {
             }
             if constexpr (requires { result.points; }) {
                 for (const auto& record : result.points) {
-                    if constexpr (requires { record.point; }) {
-                        found.records.push_back(record.point);
+                    if constexpr (requires { record.position; }) {
+                        found.records.push_back(record.position);
                     }
                 }
             }
