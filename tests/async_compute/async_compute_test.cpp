@@ -39,10 +39,10 @@ struct Scene {
         const Instance there{b, {{0.7, 0.2}, 0.4}};
         const Instance apart{b, {{4.0, 0.3}, 0.1}};
         for (const Technique technique : {Technique::compute, Technique::automatic}) {
-            batch.add(PenetrationQuery{here, there, 0.02, {}, true, technique});
-            batch.add(ContactQuery{here, there, 0.02, 0.05, {}, true, technique});
+            batch.add(PenetrationQuery{here, there, 0.02, {}, false, technique});
+            batch.add(ContactQuery{here, there, 0.02, 0.05, {}, false, technique});
             if (!recordable) {
-                batch.add(ContactQuery{here, there, 0.02, 0.05, ContactNormals::gradient, true,
+                batch.add(ContactQuery{here, there, 0.02, 0.05, ContactNormals::gradient, false,
                                        technique});
             }
             batch.add(ClosestPointQuery{here, apart, 0.02, technique});

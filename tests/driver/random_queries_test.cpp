@@ -17,15 +17,15 @@ constexpr int cases = 6;
 Batch every_query(const Instance& a, const Instance& b, double tolerance) {
     Batch batch;
     for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
-        batch.add(PenetrationQuery{a, b, tolerance, PenetrationPoints::boundary, true, technique});
-        batch.add(PenetrationQuery{a, b, tolerance, PenetrationPoints::vertices, true, technique});
-        batch.add(ContactQuery{a, b, tolerance, tolerance, {}, true, technique});
+        batch.add(PenetrationQuery{a, b, tolerance, PenetrationPoints::boundary, false, technique});
+        batch.add(PenetrationQuery{a, b, tolerance, PenetrationPoints::vertices, false, technique});
+        batch.add(ContactQuery{a, b, tolerance, tolerance, {}, false, technique});
         batch.add(ClosestPointQuery{a, b, tolerance, technique});
         batch.add(SeparationQuery{a, b, tolerance, technique});
         for (const IntersectionKind kind :
              {IntersectionKind::boundary_boundary, IntersectionKind::boundary_volume,
               IntersectionKind::volume_volume}) {
-            batch.add(IntersectionQuery{a, b, tolerance, kind, true, IntersectionStrategy::depth,
+            batch.add(IntersectionQuery{a, b, tolerance, kind, false, IntersectionStrategy::depth,
                                         technique});
         }
         DistanceFieldQuery field{a, b, tolerance};

@@ -274,7 +274,7 @@ Batch World::batch(double cells, Technique technique) const {
     Batch batch;
     add_recordable(batch, cells, technique);
     batch.add(
-        ContactQuery{here(), there(), 1.0 / cells, 0.1, ContactNormals::gradient, true, technique});
+        ContactQuery{here(), there(), 1.0 / cells, 0.1, ContactNormals::gradient, false, technique});
     return batch;
 }
 
@@ -284,23 +284,23 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
     DistanceFieldQuery field{here(), there(), tolerance};
     field.technique = technique;
     if (technique != Technique::cpu) {
-        batch.add(PenetrationQuery{here(), there(), tolerance, PenetrationPoints::boundary, true,
+        batch.add(PenetrationQuery{here(), there(), tolerance, PenetrationPoints::boundary, false,
                                    technique, true});
-        batch.add(ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, true,
+        batch.add(ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, false,
                                technique, true});
         field.on_device = true;
         field.target = &target_;
         batch.add(field);
         field.on_device = false;
         batch.add(IntersectionQuery{here(), there(), tolerance, IntersectionKind::boundary_volume,
-                                    false, IntersectionStrategy::stencil, technique, true});
+                                    true, IntersectionStrategy::stencil, technique, true});
     }
     for (const PenetrationPoints points :
          {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
-        batch.add(PenetrationQuery{here(), there(), tolerance, points, true, technique});
+        batch.add(PenetrationQuery{here(), there(), tolerance, points, false, technique});
     }
     batch.add(
-        ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, true, technique});
+        ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, false, technique});
     batch.add(ClosestPointQuery{here(), apart, tolerance, technique});
     batch.add(SeparationQuery{here(), apart, tolerance, technique});
     batch.add(IntersectionTestQuery{here(), there()});
@@ -310,12 +310,12 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
     for (const IntersectionKind kind :
          {IntersectionKind::boundary_boundary, IntersectionKind::boundary_volume,
           IntersectionKind::volume_volume}) {
-        batch.add(IntersectionQuery{here(), there(), tolerance, kind, true,
+        batch.add(IntersectionQuery{here(), there(), tolerance, kind, false,
                                     IntersectionStrategy::stencil, technique});
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         batch.add(IntersectionQuery{here(), there(), tolerance, IntersectionKind::volume_volume,
-                                    true, static_cast<IntersectionStrategy>(i), technique});
+                                    false, static_cast<IntersectionStrategy>(i), technique});
     }
     field.features = field.gradients = true;
     field.points = field_points;

@@ -177,11 +177,11 @@ Technique parse_technique(const std::string& name, const std::string& what) {
 void add_query(Batch& batch, const QueryRequest& request, const Instance& a, const Instance& b) {
     switch (request.type) {
         case QueryType::penetration:
-            batch.add(PenetrationQuery{a, b, request.tolerance, request.points, request.records,
+            batch.add(PenetrationQuery{a, b, request.tolerance, request.points, !request.records,
                                        request.technique});
             break;
         case QueryType::intersection:
-            batch.add(IntersectionQuery{a, b, request.tolerance, request.kind, request.records,
+            batch.add(IntersectionQuery{a, b, request.tolerance, request.kind, !request.records,
                                         request.strategy, request.technique});
             break;
         case QueryType::distance_field:
@@ -192,7 +192,7 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
         case QueryType::contacts:
             batch.add(ContactQuery{a, b, request.tolerance,
                                    request.contact_distance.value_or(request.tolerance),
-                                   request.normals, request.records, request.technique});
+                                   request.normals, !request.records, request.technique});
             break;
         case QueryType::closest_point:
             batch.add(ClosestPointQuery{a, b, request.tolerance, request.technique});
