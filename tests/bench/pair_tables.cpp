@@ -160,7 +160,7 @@ int main() {
     const PenetrationQuery vertices{.tolerance = 0.01, .points = PenetrationPoints::vertices};
     print_row(context, crowd, "penetrating vertices, both ways", vertices);
     PenetrationQuery records = vertices;
-    records.records = true;
+    records.summary_only = false;
     print_row(context, crowd, "the same with records", records);
     print_row(context, crowd, "separation", SeparationQuery{.tolerance = 0.01});
     return 0;

@@ -76,7 +76,7 @@ double excess(const DistanceFieldResult& field, const FilledRegion& region) {
         most = std::max(most, off - field.error_bound * (1 + 1e-6));
     }
     for (const FieldPoint& point : field.points) {
-        const double off = std::abs(point.distance - region.signed_distance(point.point));
+        const double off = std::abs(point.distance - region.signed_distance(point.position));
         most = std::max(most, off - point.error_bound * (1 + 1e-6));
     }
     return most;

@@ -84,7 +84,7 @@ std::vector<ContactPoint> contacts_by_cpu(const examples::Scene& scene) {
     if (!status.ok() || !results[handle].status.ok()) {
         throw std::runtime_error(status.text() + results[handle].status.text());
     }
-    return results[handle].records;
+    return results[handle].points;
 }
 
 Comparison compare(const Pixels& picture, const examples::Scene& scene,

@@ -119,9 +119,9 @@ Findings find(Simulation& simulation, const Overlays& overlays) {
                 }
                 append(findings.regions, result.regions);
                 if constexpr (std::is_same_v<Result, PenetrationResult>) {
-                    append(findings.observations.penetrating, result.records);
+                    append(findings.observations.penetrating, result.points);
                 } else if constexpr (std::is_same_v<Result, ContactResult>) {
-                    append(findings.observations.contacts, result.records);
+                    append(findings.observations.contacts, result.points);
                 } else if constexpr (std::is_same_v<Result, IntersectionResult>) {
                     append(findings.samples, result.samples);
                     findings.sample_cell = result.cell;
@@ -140,7 +140,7 @@ void draw(tools::Drawing& drawing, Simulation& simulation, const Overlays& overl
     }
     tools::draw_bodies(drawing, simulation.scene(), view);
     for (const IntersectionSample& sample : findings.samples) {
-        draw_sample(drawing, view, sample.point, findings.sample_cell);
+        draw_sample(drawing, view, sample.position, findings.sample_cell);
     }
     if (overlays.regions) {
         for (const Region& region : findings.regions) {
