@@ -85,7 +85,7 @@ TEST(PointContacts, AreAllSamplesOfBothBoundariesThatAreNear) {
                 ASSERT_EQ(result.points.size(), all.size());
                 for (std::size_t i = 0; i < all.size(); ++i) {
                     const ContactPoint& record = result.points[i];
-                    EXPECT_EQ(record.position, all[i].point);
+                    EXPECT_EQ(record.position, all[i].position);
                     EXPECT_NEAR(record.distance, all[i].distance, 1e-14);
                     EXPECT_EQ(record.on, all[i].on);
                     const bool touches = all[i].distance <= plan::touching_depth * query.tolerance;
