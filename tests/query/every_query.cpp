@@ -12,11 +12,11 @@ void add_points(Batch& batch, const Instance& a, const Instance& b, bool recorda
     for (const Technique technique : all_techniques) {
         for (const PenetrationPoints points :
              {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
-            batch.add(PenetrationQuery{a, b, 0.05, points, true, technique});
+            batch.add(PenetrationQuery{a, b, 0.05, points, false, technique});
         }
-        batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::analytic, true, technique});
+        batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::analytic, false, technique});
         if (!recordable || technique == Technique::cpu) {
-            batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::gradient, true, technique});
+            batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::gradient, false, technique});
         }
         batch.add(SeparationQuery{a, apart, 0.05, technique});
         batch.add(ClosestPointQuery{a, apart, 0.05, technique});
@@ -33,12 +33,12 @@ void add_intersections(Batch& batch, const Instance& a, const Instance& b) {
          {IntersectionKind::volume_volume, IntersectionKind::boundary_volume,
           IntersectionKind::boundary_boundary}) {
         for (const Technique technique : all_techniques) {
-            batch.add(IntersectionQuery{a, b, 0.05, kind, true, IntersectionStrategy::stencil,
+            batch.add(IntersectionQuery{a, b, 0.05, kind, false, IntersectionStrategy::stencil,
                                         technique});
         }
         for (const IntersectionStrategy strategy :
              {IntersectionStrategy::blend, IntersectionStrategy::depth}) {
-            batch.add(IntersectionQuery{a, b, 0.05, kind, true, strategy, Technique::raster});
+            batch.add(IntersectionQuery{a, b, 0.05, kind, false, strategy, Technique::raster});
         }
     }
 }

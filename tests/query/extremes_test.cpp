@@ -59,7 +59,7 @@ protected:
             EXPECT_NEAR(result.deepest.depth, deepest, tolerance);
             const ContactResult contacts =
                 run_alone(context(), ContactQuery{query.a, query.b, tolerance, tolerance,
-                                                  ContactNormals::analytic, true, technique});
+                                                  ContactNormals::analytic, false, technique});
             ASSERT_TRUE(contacts.status.ok()) << contacts.status.text();
             EXPECT_GT(contacts.count, 4U);
         }

@@ -41,7 +41,7 @@ TEST_F(Frames, ThatNeedNoDeviceSubmitNothing) {
                                {b_, {{0.7, 0.0}, 0.0}},
                                0.04,
                                PenetrationPoints::boundary,
-                               true,
+                               false,
                                Technique::cpu});
     batch.add(SeparationQuery{{a_, {}}, {b_, {{3.0, 0.0}, 0.0}}, 0.04, Technique::cpu});
     const Ticket ticket = submit(batch);

@@ -8,8 +8,8 @@ Batch Frames::batch(int number) const {
     const Instance apart{b_, {{3.0, 0.1 * number}, 0.3}};
     Batch batch;
     for (const Technique technique : {Technique::raster, Technique::cpu}) {
-        batch.add(PenetrationQuery{here, there, 0.04, {}, true, technique});
-        batch.add(ContactQuery{here, there, 0.04, 0.05, {}, true, technique});
+        batch.add(PenetrationQuery{here, there, 0.04, {}, false, technique});
+        batch.add(ContactQuery{here, there, 0.04, 0.05, {}, false, technique});
         batch.add(SeparationQuery{here, apart, 0.04, technique});
         batch.add(ClosestPointQuery{here, apart, 0.04, technique});
     }

@@ -168,11 +168,12 @@ TEST_F(Recorded, QueriesThatTakeASecondSubmissionAreRefusedAlone) {
     const Instance there{b_, {{0.7, 0.1}, 0.3}};
     Batch batch;
     for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
-        batch.add(ContactQuery{here, there, 0.05, 0.05, ContactNormals::gradient, true, technique});
+        batch.add(
+            ContactQuery{here, there, 0.05, 0.05, ContactNormals::gradient, false, technique});
     }
     Batch automatic = batch;
     automatic.add(ContactQuery{here, there, 0.05, 0.05, ContactNormals::gradient});
-    automatic.add(PenetrationQuery{here, there, 0.05, {}, true, Technique::raster});
+    automatic.add(PenetrationQuery{here, there, 0.05, {}, false, Technique::raster});
     const Ticket ticket = record(automatic, host.begin(0), 0);
     host.submit(0);
     host.wait(0);
@@ -207,7 +208,7 @@ TEST_F(Recorded, SamplesHaveRoomHoweverMany) {
                                     {a_, {}},
                                     0.004,
                                     IntersectionKind::volume_volume,
-                                    true,
+                                    false,
                                     IntersectionStrategy::stencil,
                                     technique});
     }

@@ -24,9 +24,9 @@ Batch frame(ShapeHandle a, ShapeHandle b) {
     for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
         for (const PenetrationPoints points :
              {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
-            batch.add(PenetrationQuery{here, there, 0.08, points, true, technique});
+            batch.add(PenetrationQuery{here, there, 0.08, points, false, technique});
         }
-        batch.add(ContactQuery{here, there, 0.08, 0.05, {}, true, technique});
+        batch.add(ContactQuery{here, there, 0.08, 0.05, {}, false, technique});
         batch.add(SeparationQuery{here, apart, 0.08, technique});
         batch.add(ClosestPointQuery{here, apart, 0.08, technique});
     }
@@ -43,7 +43,7 @@ Batch frame(ShapeHandle a, ShapeHandle b) {
         batch.add(field);
         for (const IntersectionKind kind :
              {IntersectionKind::volume_volume, IntersectionKind::boundary_boundary}) {
-            batch.add(IntersectionQuery{here, there, 0.08, kind, true,
+            batch.add(IntersectionQuery{here, there, 0.08, kind, false,
                                         IntersectionStrategy::stencil, technique});
         }
     }

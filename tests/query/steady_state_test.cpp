@@ -27,11 +27,11 @@ Batch resident_batch(ShapeHandle a, ShapeHandle b) {
     }
     for (const Technique technique : {Technique::raster, Technique::compute}) {
         const Instance here{a, {{5.0, 5.0}, 0.0}};
-        batch.add(PenetrationQuery{here, field.b, 0.08, {}, true, technique, true});
-        batch.add(ContactQuery{here, field.b, 0.08, 0.05, {}, true, technique, true});
+        batch.add(PenetrationQuery{here, field.b, 0.08, {}, false, technique, true});
+        batch.add(ContactQuery{here, field.b, 0.08, 0.05, {}, false, technique, true});
         for (const IntersectionKind kind :
              {IntersectionKind::volume_volume, IntersectionKind::boundary_boundary}) {
-            batch.add(IntersectionQuery{here, field.b, 0.08, kind, true,
+            batch.add(IntersectionQuery{here, field.b, 0.08, kind, false,
                                         IntersectionStrategy::stencil, technique, true});
         }
     }

@@ -37,7 +37,7 @@ protected:
                                                        {shape_, {{2.0, 2.0}, 0.0}},
                                                        0.1,
                                                        IntersectionKind::volume_volume,
-                                                       false,
+                                                       true,
                                                        {},
                                                        Technique::compute});
         Results results;

@@ -91,8 +91,8 @@ private:
             const Instance a = instances_[pair.first];
             const Instance b = instances_[pair.second];
             for (const auto points : {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
-                batch_.add(PenetrationQuery{a, b, 0.02, points, true, Technique::cpu});
-                batch_.add(PenetrationQuery{b, a, 0.02, points, true, Technique::cpu});
+                batch_.add(PenetrationQuery{a, b, 0.02, points, false, Technique::cpu});
+                batch_.add(PenetrationQuery{b, a, 0.02, points, false, Technique::cpu});
             }
             batch_.add(IntersectionTestQuery{a, b});
             batch_.add(ContainmentQuery{a, b});

@@ -55,9 +55,9 @@ private:
         const Instance here{a_, {}};
         const Instance there{b_, {{1.2, 0.1 * frame}, 0.3}};
         Batch batch;
-        batch.add(PenetrationQuery{here, there, 0.1, {}, true, technique});
+        batch.add(PenetrationQuery{here, there, 0.1, {}, false, technique});
         batch.add(SeparationQuery{here, {b_, {{6.0, 0.1 * frame}, 0.3}}, 0.1, technique});
-        batch.add(IntersectionQuery{here, there, 0.1, IntersectionKind::volume_volume, true,
+        batch.add(IntersectionQuery{here, there, 0.1, IntersectionKind::volume_volume, false,
                                     IntersectionStrategy::stencil, technique});
         return batch;
     }

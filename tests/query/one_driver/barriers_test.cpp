@@ -53,8 +53,8 @@ std::vector<double> frame(const HostDevice& host, Technique technique) {
     const Instance here{*a, {}};
     const Instance there{*b, {{1.2, 0.4}, 0.3}};
     Batch batch;
-    batch.add(PenetrationQuery{here, there, 0.02, {}, true, technique});
-    batch.add(IntersectionQuery{here, there, 0.02, IntersectionKind::volume_volume, true,
+    batch.add(PenetrationQuery{here, there, 0.02, {}, false, technique});
+    batch.add(IntersectionQuery{here, there, 0.02, IntersectionKind::volume_volume, false,
                                 IntersectionStrategy::blend, technique});
     DistanceFieldQuery field{here, there, 0.02};
     field.features = true;
