@@ -12,7 +12,9 @@ namespace nearfield::batch {
 BatchRing::BatchRing(std::uint32_t frames, const plan::PlanLimits& limits,
                      const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs,
                      render::Renderer* renderer, ShapeStore& shapes)
-    : shapes_(&shapes), planning_(limits, thresholds, jobs), normals_(planning_, renderer) {
+    : shapes_(&shapes),
+      planning_(limits, thresholds, jobs),
+      gradient_contacts_(planning_, renderer) {
     for (std::uint32_t i = 0; i < frames; ++i) {
         frames_.push_back(std::make_unique<Frame>(Frame{BatchRunner(planning_, renderer), {}, i}));
     }
@@ -84,7 +86,7 @@ void BatchRing::trim() noexcept {
             frame->runner.trim();
         }
     }
-    normals_.trim();
+    gradient_contacts_.trim();
 }
 
 template <class Start>
@@ -223,8 +225,8 @@ void BatchRing::collect(Ticket ticket, Results& results, Laps& laps) {
     }
     try {
         frame.runner.collect(laps);
-        if (!frame.runner.plan().with_gradient_normals.empty()) {
-            normals_.apply(frame.runner);
+        if (!frame.runner.with_gradient_normals().empty()) {
+            gradient_contacts_.complete(frame.runner);
             laps.next();
         }
     } catch (...) {
@@ -238,7 +240,7 @@ void BatchRing::collect(Ticket ticket, Results& results, Laps& laps) {
 
 void BatchRing::list_tiles(std::vector<TileReport>& tiles) const {
     tiles.clear();
-    if (last_ != nullptr) {
+    if (last_ != nullptr && last_->runner.has_device_queries()) {
         plan::report_tiles(last_->runner.plan(), tiles);
     }
 }

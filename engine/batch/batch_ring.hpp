@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/batch/batch_runner.hpp>
-#include <engine/batch/gradient_normals.hpp>
+#include <engine/batch/gradient_contacts.hpp>
 #include <engine/batch/shape_store.hpp>
 #include <nearfield/context.hpp>
 
@@ -121,7 +121,7 @@ private:
 
     ShapeStore* shapes_;
     Planning planning_;
-    GradientNormals normals_;
+    GradientContacts gradient_contacts_;
     std::vector<std::unique_ptr<Frame>> frames_;
     std::unique_ptr<BatchRunner> cpu_runner_;  // made when first needed
     std::uint64_t last_number_ = 0;

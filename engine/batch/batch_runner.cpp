@@ -1,6 +1,8 @@
 #include <engine/base/catch_to_status.hpp>
 #include <engine/base/interruption.hpp>
 #include <engine/batch/batch_runner.hpp>
+#include <engine/plan/empty_result.hpp>
+#include <engine/plan/query_timer.hpp>
 
 #include <algorithm>
 #include <string>
@@ -23,7 +25,7 @@ BatchRunner::BatchRunner(Planning& planning, render::Renderer* renderer)
     : planning_(&planning),
       renderer_(renderer),
       slot_(renderer == nullptr ? nullptr : renderer->make_resources()),
-      decoder_(renderer == nullptr ? "" : renderer->gradient_format(), planning.answers) {}
+      answers_(renderer == nullptr ? "" : renderer->gradient_format()) {}
 
 void BatchRunner::begin_timings(std::size_t queries) {
     Timings& timings = results_.timings;
@@ -61,25 +63,31 @@ void BatchRunner::make_tile_batches() {
     resident_outputs_builder_.build(plan_, tile_batches, results_.results, resident_);
 }
 
-/// Plans the batch and makes what the device needs. If the call ends before, nothing is left to do.
-void BatchRunner::plan_batch(plan::Submissions submissions) {
-    std::vector<AnyResult>& results = results_.results;
-    expect_answers(queries_.size());
-    try {
-        choose_techniques(queries_, shapes_, planning_->rule);
-        planning_->planner.plan(queries_, shapes_, plan_, results, submissions);
-        decoder_.begin_batch(plan_);
-        make_tile_batches();
-    } catch (const Interrupted& interrupted) {
-        plan::Planner::plan_nothing(queries_, interrupted.status(), plan_, results);
-        decoder_.begin_batch(plan_);
-        pairs_.clear();
-        resident_.clear();
+/// Divides the queries between the CPU and the device. Those that are rejected are left to neither.
+void BatchRunner::check_queries(plan::Submissions submissions) {
+    for_cpu_.clear();
+    for_device_.clear();
+    results_.results.resize(queries_.size());
+    for (std::uint32_t i = 0; i < queries_.size(); ++i) {
+        checkpoint();
+        const plan::QueryTimer timer(results_.timings.queries, i, &QueryTime::plan);
+        plan::CheckedQuery checked;
+        if (plan::check(i, queries_[i], shapes_[i], planning_->limits, submissions, checked,
+                        results_.results[i])) {
+            (checked.technique == Technique::cpu ? for_cpu_ : for_device_).push_back(checked);
+        }
     }
+}
+
+/// Plans what the device answers, and makes what it needs.
+void BatchRunner::plan_batch() {
+    planning_->planner.plan(for_device_, plan_, results_.results);
+    answers_.begin_batch(plan_);
+    make_tile_batches();
     results_.timings.localize += plan_.localize_milliseconds;
 }
 
-/// Everything up to the recording of tile batches.
+/// Everything up to the recording of tile batches. If the call ends before, nothing is left to do.
 void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                         plan::Submissions submissions, Laps& laps) {
     if (submission_state() == render::SubmissionState::submitted) {
@@ -90,7 +98,21 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     begin_timings(queries.size());
     queries_.assign(queries.begin(), queries.end());
     plan::find_shapes(queries_, find_shape, shapes_);
-    plan_batch(submissions);
+    expect_answers(queries_.size());
+    try {
+        choose_techniques(queries_, shapes_, planning_->rule);
+        check_queries(submissions);
+        if (!for_device_.empty()) {
+            plan_batch();
+        }
+    } catch (const Interrupted& interrupted) {
+        for_cpu_.clear();
+        for_device_.clear();
+        results_.results.resize(queries_.size());
+        for (std::size_t i = 0; i < queries_.size(); ++i) {
+            plan::make_refused(queries_[i], interrupted.status(), results_.results[i]);
+        }
+    }
     timings.plan += laps.next() - timings.localize;
     if (has_device_work()) {
         const render::SampleRoom room = submissions == plan::Submissions::one
@@ -119,30 +141,36 @@ void BatchRunner::trim() noexcept {
 
 /// Resident records need the device even without tile batches: to state that there are none.
 bool BatchRunner::has_device_work() const {
-    return plan_.tile_batches > 0 || !pairs_.directions.empty() || !resident_.empty();
+    return !for_device_.empty() &&
+           (plan_.tile_batches > 0 || !pairs_.directions.empty() || !resident_.empty());
 }
 
-void BatchRunner::answer_on_cpu(Laps& laps) {
-    decoder_.answer_on_cpu(plan_, results_.results);
+void BatchRunner::solve(Laps& laps) {
+    planning_->solvers.answer(for_cpu_, for_device_.empty() ? 0.0 : plan_.result_bytes,
+                              results_.timings.queries, results_.results);
     results_.timings.decode += laps.next();
 }
 
 void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                          Laps& laps, const Submission& order) {
     begin(queries, find_shape, plan::Submissions::any, laps);
-    if (has_device_work()) {
+    bool is_submitted = has_device_work();
+    if (is_submitted) {
         renderer_->submit(*slot_, order, results_.timings);
         submitted_ = {};
         device_milliseconds_.reset();
         laps.next();
     } else if (slot_ != nullptr) {
         slot_->submit_semaphores(order);
+        is_submitted = !order.waits.empty() || !order.signals.empty();
     }
-    // A failure after the submission must still be reported to the host, since semaphores will be
-    // signalled.
     try {
-        answer_on_cpu(laps);
+        solve(laps);
     } catch (...) {
+        if (!is_submitted) {
+            throw;
+        }
+        // It must still be reported to the host, since semaphores will be signalled.
         late_failure_ = std::current_exception();
     }
 }
@@ -150,7 +178,7 @@ void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShap
 void BatchRunner::record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                          Laps& laps, VkCommandBuffer commands, std::uint32_t stamp) {
     begin(queries, find_shape, plan::Submissions::one, laps);
-    answer_on_cpu(laps);
+    solve(laps);
     if (has_device_work()) {
         renderer_->record(*slot_, commands, stamp, results_.timings);
         device_milliseconds_ = 0.0;  // only the host knows
@@ -248,7 +276,7 @@ void BatchRunner::take_found_pairs(bool was_recorded) {
     }
     if (!search->had_room()) {
         if (was_recorded) {
-            decoder_.pairs().leave_to_cpu();
+            answers_.pairs().leave_to_cpu();
             slot_->run_those_without_room();  // the next commands have room
         }
         return;
@@ -256,7 +284,7 @@ void BatchRunner::take_found_pairs(bool was_recorded) {
     for (std::size_t i = 0; i < search->found().parts(); ++i) {
         checkpoint();
         const render::PairPartMemory& part = search->found().part(i);
-        decoder_.pairs().add(part.rows(), part.records());
+        answers_.pairs().add(part.rows(), part.records());
     }
 }
 
@@ -273,14 +301,40 @@ void BatchRunner::collect(Laps& laps) {
     if (late_failure_) {
         std::rethrow_exception(std::exchange(late_failure_, nullptr));
     }
-    decoder_.finish(plan_, results_.results);
-    timings.decode += laps.next();
+    if (!for_device_.empty()) {
+        planning_->writer.write(plan_, for_device_, answers_, results_.results);
+        solve_what_had_no_room();
+        timings.decode += laps.next();
+    }
     std::erase_if(timings.passes, [](const PassTime& pass) { return pass.milliseconds < 0.0; });
     time_device();
 }
 
+/// What was found of these queries did not fit the memory of a search that is not repeated.
+void BatchRunner::solve_what_had_no_room() {
+    if (!answers_.pairs().are_left_to_cpu()) {
+        return;
+    }
+    for_cpu_.clear();
+    for (const plan::CheckedQuery& checked : for_device_) {
+        if (plan_.queries[checked.index].has_points_of(plan::PointSource::device)) {
+            ResultSummary& result = std::visit([](auto& any) -> ResultSummary& { return any; },
+                                               results_.results[checked.index]);
+            result.regions.clear();  // of the search
+            if (result.status.ok()) {
+                for_cpu_.push_back(checked);
+            }
+        }
+    }
+    planning_->solvers.answer(for_cpu_, plan_.result_bytes, results_.timings.queries,
+                              results_.results);
+}
+
 /// The position of the query that all work on the device was for, if it was for one alone.
 std::optional<std::size_t> BatchRunner::only_query_on_device() const {
+    if (for_device_.empty()) {
+        return std::nullopt;
+    }
     const AnyQuery* only = nullptr;
     bool is_only = true;
     const auto add = [&](std::uint32_t planned) {
@@ -323,13 +377,13 @@ void BatchRunner::time_device() {
 void BatchRunner::decode(std::uint32_t number) {
     const plan::TileBatch& batch = tile_batches_[number];
     std::vector<AnyResult>& results = results_.results;
-    decoder_.add_points(batch, slot_->points(number));
-    decoder_.add_field(plan_, batch, slot_->field_words(number), results);
+    answers_.add_points(batch, slot_->points(number));
+    answers_.add_field(plan_, batch, slot_->field_words(number), results);
     if (slot_->tile_batch(number).had_long_searches) {
-        decoder_.refuse_fields(plan_, batch);
+        answers_.refuse_fields(plan_, batch);
     }
-    results::ResultDecoder::add_summaries(plan_, batch, slot_->summaries(number), results);
-    decoder_.add_samples(plan_, batch, slot_->samples(number));
+    readback::DeviceAnswers::add_summaries(plan_, batch, slot_->summaries(number), results);
+    answers_.add_samples(plan_, batch, slot_->samples(number));
 }
 
 }  // namespace nearfield::batch

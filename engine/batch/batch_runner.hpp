@@ -2,14 +2,16 @@
 
 #include <engine/base/stopwatch.hpp>
 #include <engine/batch/technique_choice.hpp>
+#include <engine/plan/checked_query.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/point_search.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
+#include <engine/readback/device_answers.hpp>
+#include <engine/readback/result_writer.hpp>
 #include <engine/render/renderer.hpp>
 #include <engine/resident/resident_outputs_builder.hpp>
-#include <engine/results/answer_jobs.hpp>
-#include <engine/results/results.hpp>
+#include <engine/solvers/solver_jobs.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -21,21 +23,25 @@
 
 namespace nearfield::batch {
 
-/// Turns queries into tile batches, and writes answers. Its scratch memory serves one batch after
-/// the other: none of it is needed once a batch is submitted or its answers are written.
+/// What turns queries into answers, on the CPU and for a device. Its scratch memory serves one
+/// batch after the other: none of it is needed once a batch is submitted or its answers are
+/// written.
 struct Planning {
+    plan::PlanLimits limits;
     TechniqueRule rule;
+    solvers::SolverJobs solvers;
     plan::Planner planner;
     plan::TileBatchBuilder builder;
     plan::GivenPairsBuilder pairs;
-    results::AnswerJobs answers;
+    readback::ResultWriter writer;
 
-    Planning(const plan::PlanLimits& limits, const std::optional<DeviceThresholds>& thresholds,
-             const JobSystem& jobs)
-        : rule{limits.techniques, limits.largest_range, thresholds},
+    Planning(const plan::PlanLimits& limits_of_device,
+             const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs)
+        : limits(limits_of_device),
+          rule{limits.techniques, limits.largest_range, thresholds},
+          solvers(limits, jobs),
           planner(limits),
-          builder(limits.subpixel),
-          answers(jobs) {}
+          builder(limits.subpixel) {}
 };
 
 /// Runs one batch from queries to results, in two steps: everything up to its submission, and the
@@ -50,11 +56,12 @@ public:
     /// Whether the next batches state the time of each query.
     void time_queries(bool on) { times_queries_ = on; }
 
-    /// Copies the queries, chooses their techniques, plans them and submits their tile batches with
-    /// the semaphores of `order`; if nothing is rendered, only the semaphores, if any. Then answers
-    /// the CPU's queries while the device is working; errors there are reported by collect(). Does
-    /// not wait, except for a batch that an exception left on the device. `laps`: begun with the
-    /// call; each part that takes time ends one.
+    /// Copies the queries, chooses their techniques and checks them; plans what the device answers
+    /// and submits its tile batches with the semaphores of `order`; if nothing is rendered, only
+    /// the semaphores, if any. Then answers the CPU's queries while the device is working; errors
+    /// there are reported by collect() if there were submissions. Does not wait, except for a batch
+    /// that an exception left on the device. `laps`: begun with the call; each part that takes time
+    /// ends one.
     void submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape, Laps& laps,
                 const Submission& order = {});
     /// The same, but records the tile batches into a command buffer of the host, as the last step:
@@ -98,23 +105,32 @@ public:
     [[nodiscard]] double pipeline_milliseconds() const {
         return renderer_ == nullptr ? 0.0 : renderer_->pipeline_milliseconds();
     }
+    /// Whether the last batch has queries that a device answers.
+    [[nodiscard]] bool has_device_queries() const { return !for_device_.empty(); }
+    /// Of these.
     [[nodiscard]] const plan::Plan& plan() const { return plan_; }
+    /// Contact queries of the device with gradient normals, which are not complete.
+    [[nodiscard]] std::span<const std::uint32_t> with_gradient_normals() const {
+        return for_device_.empty() ? std::span<const std::uint32_t>() : plan_.with_gradient_normals;
+    }
     /// The points of a planned query, as the device has answered them.
-    [[nodiscard]] records::QueryPoints points_of(std::uint32_t query) const {
-        return decoder_.device().points_of(plan_, query);
+    [[nodiscard]] readback::QueryPoints points_of(std::uint32_t query) const {
+        return answers_.points_of(plan_, query);
     }
 
 private:
     void begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                plan::Submissions submissions, Laps& laps);
     [[nodiscard]] bool has_device_work() const;
-    void answer_on_cpu(Laps& laps);
+    void check_queries(plan::Submissions submissions);
+    void solve(Laps& laps);
+    void solve_what_had_no_room();
     void begin_timings(std::size_t queries);
     void time_device();
     [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
     void make_tile_batches();
     void build_tile_batches();
-    void plan_batch(plan::Submissions submissions);
+    void plan_batch();
     void wait();
     void read_back(Laps& laps);
     void take_found_pairs(bool was_recorded);
@@ -129,12 +145,15 @@ private:
     // Points of fields are read while the batch is planned; later they may be gone.
     std::vector<AnyQuery> queries_;
     std::vector<plan::QueryShapes> shapes_;  // by query
+    std::vector<plan::CheckedQuery> for_cpu_;
+    std::vector<plan::CheckedQuery> for_device_;
+    // Only if a device answers some of the queries.
     plan::Plan plan_;
     std::vector<plan::TileBatch> tile_batches_;  // the first Plan::tile_batches of them
     plan::GivenPairs pairs_;                     // that the device searches
     resident::ResidentOutputsBuilder resident_outputs_builder_;
     plan::ResidentOutputs resident_;
-    results::ResultDecoder decoder_;
+    readback::DeviceAnswers answers_;
     Results results_;
     bool times_queries_ = false;
     Stopwatch submitted_;

@@ -1,6 +1,7 @@
 #include <engine/context/call_within.hpp>
 #include <engine/context/check_structures.hpp>
 #include <engine/context/implementation.hpp>
+#include <engine/gpu/submission.hpp>
 
 #include <utility>
 
@@ -125,7 +126,9 @@ Expected<std::span<const InstancePair>> Context::find_overlapping_boxes(
 }
 
 Status Context::run(const Batch& batch, Results& results, const Limits& limits) {
-    return call_within(limits, [&] { return implementation_->run(batch, results); });
+    return call_within(limits, [&] {
+        return implementation_->unless_lost([&] { implementation_->ring().run(batch, results); });
+    });
 }
 
 Expected<Ticket> Context::submit(const Batch& batch, const Limits& limits) {
@@ -134,24 +137,50 @@ Expected<Ticket> Context::submit(const Batch& batch, const Limits& limits) {
 
 Expected<Ticket> Context::submit(const Batch& batch, const Submission& submission,
                                  const Limits& limits) {
-    return call_within(limits, [&] { return implementation_->submit(batch, submission); });
+    return call_within(limits, [&]() -> Expected<Ticket> {
+        Ticket ticket;
+        Status status = implementation_->unless_lost([&] {
+            if (const gpu::Device* const device = implementation_->device(); device != nullptr) {
+                gpu::check_semaphores(*device, submission);
+            } else if (!submission.waits.empty() || !submission.signals.empty()) {
+                throw StatusException(no_device("submit with semaphores"));
+            }
+            ticket = implementation_->ring().submit(batch, submission);
+        });
+        return status.ok() ? Expected<Ticket>(ticket) : status;
+    });
 }
 
 Expected<Ticket> Context::record(const Batch& batch, const Recording& recording,
                                  const Limits& limits) {
-    return call_within(limits, [&] { return implementation_->record(batch, recording); });
+    return call_within(limits, [&]() -> Expected<Ticket> {
+        if (implementation_->device() == nullptr) {
+            return no_device("record");
+        }
+        Ticket ticket;
+        Status status = implementation_->unless_lost(
+            [&] { ticket = implementation_->ring().record(batch, recording); });
+        return status.ok() ? Expected<Ticket>(ticket) : status;
+    });
 }
 
 void Context::frame_completed(std::uint64_t frame) noexcept {
-    implementation_->frame_completed(frame);
+    implementation_->ring().complete(frame);
 }
 
 bool Context::is_ready(Ticket ticket) {
-    return implementation_->is_ready(ticket);
+    return implementation_->is_lost() || implementation_->ring().is_ready(ticket);
 }
 
 Status Context::collect(Ticket ticket, Results& results, const Limits& limits) {
-    return call_within(limits, [&] { return implementation_->collect(ticket, results); });
+    return call_within(limits, [&] {
+        if (implementation_->is_lost()) {
+            Status status = catch_to_status([&] { implementation_->ring().drop(ticket); });
+            return status.ok() ? implementation_->lost_device() : status;
+        }
+        return implementation_->unless_lost(
+            [&] { implementation_->ring().collect(ticket, results); });
+    });
 }
 
 Expected<FieldOnDevice> Context::on_device(Ticket ticket, QueryHandle<DistanceFieldQuery> query) {
@@ -191,7 +220,10 @@ Expected<std::vector<SamplesOnDevice>> Context::layout_on_device(
 }
 
 void Context::trim() noexcept {
-    implementation_->trim();
+    if (implementation_->device() != nullptr && !implementation_->is_lost()) {
+        implementation_->ring().trim();
+        implementation_->renderer()->trim();
+    }
 }
 
 const std::string& Context::device_name() const noexcept {

@@ -1,5 +1,4 @@
 #include <engine/context/implementation.hpp>
-#include <engine/gpu/submission.hpp>
 #include <engine/plan/check_query.hpp>
 
 #include <algorithm>
@@ -57,12 +56,7 @@ Settings settings_for(Settings settings, const gpu::Device& device) {
     return settings;
 }
 
-Status no_device(const char* call) {
-    return {StatusCode::no_device,
-            std::string(call) + ": this context has no device (Context::create_cpu)"};
-}
-
-Status lost_device() {
+Status device_is_lost() {
     return {StatusCode::device_lost,
             "the device was lost in an earlier batch; destroy this context and make another"};
 }
@@ -78,7 +72,7 @@ Context::Implementation::Machinery::Machinery(const gpu::Device* device, const S
 Context::Implementation::Implementation(const Settings& settings)
     : settings_(without_device(settings)),
       machinery_(make_machinery()),
-      lost_device_(lost_device()) {}
+      lost_device_(device_is_lost()) {}
 
 Context::Implementation::Implementation(std::unique_ptr<gpu::HeadlessDevice> own,
                                         const HostDevice& host, const Settings& settings)
@@ -86,7 +80,7 @@ Context::Implementation::Implementation(std::unique_ptr<gpu::HeadlessDevice> own
       device_(std::make_unique<gpu::Device>(host)),
       settings_(settings_for(settings, *device_)),
       machinery_(make_machinery()),
-      lost_device_(lost_device()) {
+      lost_device_(device_is_lost()) {
     device_->log(LogLevel::information, [&] {
         return "context on '" + device_->name() + "' made in " +
                std::to_string(making_.milliseconds()) + " ms, for " +
@@ -152,48 +146,6 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_overlappin
         instance_pairs_.push_back({first, second});
     }
     return std::span<const InstancePair>(instance_pairs_);
-}
-
-Status Context::Implementation::run(const Batch& batch, Results& results) {
-    return unless_lost([&] { machinery_->ring.run(batch, results); });
-}
-
-Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submission& submission) {
-    Ticket ticket;
-    Status status = unless_lost([&] {
-        if (device_ != nullptr) {
-            gpu::check_semaphores(*device_, submission);
-        } else if (!submission.waits.empty() || !submission.signals.empty()) {
-            throw StatusException(no_device("submit with semaphores"));
-        }
-        ticket = machinery_->ring.submit(batch, submission);
-    });
-    return status.ok() ? Expected<Ticket>(ticket) : status;
-}
-
-Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recording& recording) {
-    if (device_ == nullptr) {
-        return no_device("record");
-    }
-    Ticket ticket;
-    Status status = unless_lost([&] { ticket = machinery_->ring.record(batch, recording); });
-    return status.ok() ? Expected<Ticket>(ticket) : status;
-}
-
-Status Context::Implementation::collect(Ticket ticket, Results& results) {
-    if (lost_) {
-        Status status = catch_to_status([&] { machinery_->ring.drop(ticket); });
-        return status.ok() ? lost_device_ : status;
-    }
-    return unless_lost([&] { machinery_->ring.collect(ticket, results); });
-}
-
-void Context::Implementation::trim() noexcept {
-    if (device_ == nullptr || lost_) {
-        return;
-    }
-    machinery_->ring.trim();
-    machinery_->renderer->trim();
 }
 
 #ifdef NEARFIELD_SHADER_RELOAD

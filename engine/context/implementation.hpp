@@ -24,6 +24,12 @@
 
 namespace nearfield {
 
+/// The error of a call that needs a device.
+[[nodiscard]] inline Status no_device(const char* call) {
+    return {StatusCode::no_device,
+            std::string(call) + ": this context has no device (Context::create_cpu)"};
+}
+
 /// What a context consists of.
 class Context::Implementation {
     /// Everything made from pipelines, and the memory they work on.
@@ -55,16 +61,10 @@ public:
 
     Expected<std::span<const InstancePair>> find_overlapping_boxes(
         std::span<const Instance> instances, double reach);
-    Status run(const Batch& batch, Results& results);
-    Expected<Ticket> submit(const Batch& batch, const Submission& submission);
-    Expected<Ticket> record(const Batch& batch, const Recording& recording);
-    void frame_completed(std::uint64_t frame) { machinery_->ring.complete(frame); }
     /// Whether what was recorded for the host's frame need not be waited for.
     [[nodiscard]] bool is_complete(std::uint64_t frame) const {
         return lost_ || machinery_->ring.is_complete(frame);
     }
-    bool is_ready(Ticket ticket) { return lost_ || machinery_->ring.is_ready(ticket); }
-    Status collect(Ticket ticket, Results& results);
 
     template <class Output, class Query>
     Expected<Output> on_device(Ticket ticket, QueryHandle<Query> query) {
@@ -80,8 +80,6 @@ public:
             unless_lost([&] { layout = machinery_->ring.layout_on_device(batch, query); });
         return status.ok() ? Expected<std::vector<Output>>(std::move(layout)) : status;
     }
-
-    void trim() noexcept;
 
     [[nodiscard]] const batch::BatchRing& ring() const { return machinery_->ring; }
     [[nodiscard]] batch::BatchRing& ring() { return machinery_->ring; }
@@ -116,6 +114,8 @@ public:
     [[nodiscard]] const render::Renderer* renderer() const { return machinery_->renderer.get(); }
     [[nodiscard]] render::Renderer* renderer() { return machinery_->renderer.get(); }
 
+    [[nodiscard]] bool is_lost() const { return lost_; }
+    [[nodiscard]] const Status& lost_device() const { return lost_device_; }
     /// Runs an action unless the device is lost; records the loss of the device.
     template <class Action>
     Status unless_lost(Action&& action) noexcept {

@@ -81,32 +81,6 @@ Status check_pose(const Pose& pose, std::string_view whose) {
 
 namespace {
 
-Status check_field(const DistanceFieldQuery& query) {
-    if (value_of(query.sign) > value_of(SignEncoding::feature_bit)) {
-        return no_enumerator("the sign encoding is", value_of(query.sign));
-    }
-    if (value_of(query.gradient) > value_of(GradientMethod::blended)) {
-        return no_enumerator("the gradient method is", value_of(query.gradient));
-    }
-    if (!query.rectangle && query.a.shape == ShapeHandle{}) {
-        return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
-    }
-    if (!query.values && !query.features && !query.gradients && query.points.empty() &&
-        !query.on_device) {
-        return invalid(
-            "the distance field asks for nothing: neither for values, features or gradients at "
-            "cells nor for points, nor for anything that stays on the device");
-    }
-    for (std::size_t i = 0; i < query.points.size(); ++i) {
-        for (const double value : {query.points[i].x, query.points[i].y}) {
-            if (!is_usable(value)) {
-                return unusable(value, "a coordinate of point " + std::to_string(i));
-            }
-        }
-    }
-    return query.rectangle ? check_rectangle(*query.rectangle) : Status();
-}
-
 Status no_technique(Technique technique, const AvailableTechniques& available) {
     const std::string needs = std::string("the technique ") + to_string(technique);
     if (!available.device) {
@@ -141,59 +115,48 @@ Status none_answers(const char* what, const AvailableTechniques& available) {
                 ") answers " + what};
 }
 
-template <class Query>
-Status check_technique(const Query& query, const AvailableTechniques& available) {
-    switch (query.technique) {
+Status check_technique(const CommonNumbers& numbers, const AvailableTechniques& available) {
+    switch (numbers.technique) {
         case Technique::automatic:
+            return none_answers(numbers.unanswered_by_cpu, available);
         case Technique::raster:
         case Technique::compute:
         case Technique::cpu:
             break;
         default:
-            return no_enumerator("the technique is", value_of(query.technique));
+            return no_enumerator("the technique is", value_of(numbers.technique));
     }
-    if (query.technique == Technique::automatic) {
-        return none_answers(unanswered(Technique::cpu, query), available);
+    if (numbers.unanswered != nullptr) {
+        return invalid(std::string("the technique ") + to_string(numbers.technique) +
+                       " does not answer " + numbers.unanswered +
+                       "; ask for another, or for automatic");
     }
-    if (const char* const what = unanswered(query.technique, query); what != nullptr) {
-        return invalid(std::string("the technique ") + to_string(query.technique) +
-                       " does not answer " + what + "; ask for another, or for automatic");
-    }
-    return available.has(query.technique) ? Status() : no_technique(query.technique, available);
-}
-
-template <class Query>
-Status check_pair(const Query& query, const AvailableTechniques& available) {
-    if (Status status = check_technique(query, available); !status.ok()) {
-        return status;
-    }
-    if constexpr (requires { query.tolerance; }) {
-        if (!is_length(query.tolerance)) {
-            return no_length(query.tolerance, "the tolerance");
-        }
-    }
-    if (!is_usable(query.a.pose)) {
-        return unusable(query.a.pose, "A's pose");
-    }
-    return is_usable(query.b.pose) ? Status() : unusable(query.b.pose, "B's pose");
+    return available.has(numbers.technique) ? Status() : no_technique(numbers.technique, available);
 }
 
 }  // namespace
 
-Status check_query(const PenetrationQuery& query, const AvailableTechniques& available) {
-    Status status = check_pair(query, available);
-    if (status.ok() && query.points != PenetrationPoints::boundary &&
-        query.points != PenetrationPoints::vertices) {
-        return no_enumerator("the points are", value_of(query.points));
-    }
-    return status;
-}
-
-Status check_query(const IntersectionQuery& query, const AvailableTechniques& available) {
-    Status status = check_pair(query, available);
-    if (!status.ok()) {
+Status check_common(const CommonNumbers& numbers, const AvailableTechniques& available) {
+    if (Status status = check_technique(numbers, available); !status.ok()) {
         return status;
     }
+    if (numbers.tolerance != nullptr && !is_length(*numbers.tolerance)) {
+        return no_length(*numbers.tolerance, "the tolerance");
+    }
+    if (!is_usable(numbers.a)) {
+        return unusable(numbers.a, "A's pose");
+    }
+    return is_usable(numbers.b) ? Status() : unusable(numbers.b, "B's pose");
+}
+
+Status check_own(const PenetrationQuery& query) {
+    return query.points == PenetrationPoints::boundary ||
+                   query.points == PenetrationPoints::vertices
+               ? Status()
+               : no_enumerator("the points are", value_of(query.points));
+}
+
+Status check_own(const IntersectionQuery& query) {
     if (value_of(query.kind) > value_of(IntersectionKind::volume_volume)) {
         return no_enumerator("the kind is", value_of(query.kind));
     }
@@ -203,16 +166,33 @@ Status check_query(const IntersectionQuery& query, const AvailableTechniques& av
     return {};
 }
 
-Status check_query(const DistanceFieldQuery& query, const AvailableTechniques& available) {
-    Status status = check_pair(query, available);
-    return status.ok() ? check_field(query) : status;
+Status check_own(const DistanceFieldQuery& query) {
+    if (value_of(query.sign) > value_of(SignEncoding::feature_bit)) {
+        return no_enumerator("the sign encoding is", value_of(query.sign));
+    }
+    if (value_of(query.gradient) > value_of(GradientMethod::blended)) {
+        return no_enumerator("the gradient method is", value_of(query.gradient));
+    }
+    if (!query.rectangle && query.a.shape == ShapeHandle{}) {
+        return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
+    }
+    if (!query.values && !query.features && !query.gradients && query.points.empty() &&
+        !query.on_device) {
+        return invalid(
+            "the distance field asks for nothing: neither for values, features or gradients at "
+            "cells nor for points, nor for anything that stays on the device");
+    }
+    for (std::size_t i = 0; i < query.points.size(); ++i) {
+        for (const double value : {query.points[i].x, query.points[i].y}) {
+            if (!is_usable(value)) {
+                return unusable(value, "a coordinate of point " + std::to_string(i));
+            }
+        }
+    }
+    return query.rectangle ? check_rectangle(*query.rectangle) : Status();
 }
 
-Status check_query(const ContactQuery& query, const AvailableTechniques& available) {
-    Status status = check_pair(query, available);
-    if (!status.ok()) {
-        return status;
-    }
+Status check_own(const ContactQuery& query) {
     if (query.normals != ContactNormals::analytic && query.normals != ContactNormals::gradient) {
         return no_enumerator("the normals are", value_of(query.normals));
     }
@@ -226,22 +206,7 @@ Status check_query(const ContactQuery& query, const AvailableTechniques& availab
                : no_length(query.contact_distance, "the contact distance");
 }
 
-Status check_query(const ClosestPointQuery& query, const AvailableTechniques& available) {
-    return check_pair(query, available);
-}
-
-Status check_query(const SeparationQuery& query, const AvailableTechniques& available) {
-    return check_pair(query, available);
-}
-
-Status check_query(const IntersectionTestQuery& query, const AvailableTechniques& available) {
-    return check_pair(query, available);
-}
-
-Status check_query(const TimeOfImpactQuery& query, const AvailableTechniques& available) {
-    if (Status status = check_pair(query, available); !status.ok()) {
-        return status;
-    }
+Status check_own(const TimeOfImpactQuery& query) {
     if (!(query.time_bound > 0.0 && query.time_bound <= 1.0)) {
         return invalid("the time bound is " + number(query.time_bound) +
                        "; it must be above 0 and at most 1");
@@ -258,14 +223,6 @@ Status check_query(const TimeOfImpactQuery& query, const AvailableTechniques& av
         return unusable(query.end_a, "A's end pose");
     }
     return is_usable(query.end_b) ? Status() : unusable(query.end_b, "B's end pose");
-}
-
-Status check_query(const SeparationVectorQuery& query, const AvailableTechniques& available) {
-    return check_pair(query, available);
-}
-
-Status check_query(const ContainmentQuery& query, const AvailableTechniques& available) {
-    return check_pair(query, available);
 }
 
 Status not_recordable(Technique technique) {

@@ -12,27 +12,44 @@
 
 namespace nearfield::plan {
 
-/// Checks a query's own numbers, and its technique against those available in the context. Returns
+/// The numbers that every query has, and what its technique leaves unanswered.
+struct CommonNumbers {
+    Technique technique{};
+    const char* unanswered = nullptr;         ///< by the technique, see unanswered()
+    const char* unanswered_by_cpu = nullptr;  ///< for Technique::automatic
+    const double* tolerance = nullptr;        ///< null for a query without one
+    const Pose& a;
+    const Pose& b;
+};
+[[nodiscard]] Status check_common(const CommonNumbers& numbers,
+                                  const AvailableTechniques& available);
+
+/// Checks the numbers of its own that a kind of query has.
+[[nodiscard]] Status check_own(const PenetrationQuery& query);
+[[nodiscard]] Status check_own(const IntersectionQuery& query);
+[[nodiscard]] Status check_own(const DistanceFieldQuery& query);
+[[nodiscard]] Status check_own(const ContactQuery& query);
+[[nodiscard]] Status check_own(const TimeOfImpactQuery& query);
+/// Other kinds have none.
+template <class Query>
+[[nodiscard]] Status check_own(const Query& /*query*/) {
+    return {};
+}
+
+/// Checks a query's numbers, and its technique against those available in the context. Returns
 /// success or the first error. Shapes are looked up elsewhere.
-[[nodiscard]] Status check_query(const PenetrationQuery& query,
-                                 const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const IntersectionQuery& query,
-                                 const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const DistanceFieldQuery& query,
-                                 const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const ContactQuery& query, const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const ClosestPointQuery& query,
-                                 const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const SeparationQuery& query,
-                                 const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const IntersectionTestQuery& query,
-                                 const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const TimeOfImpactQuery& query,
-                                 const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const SeparationVectorQuery& query,
-                                 const AvailableTechniques& available);
-[[nodiscard]] Status check_query(const ContainmentQuery& query,
-                                 const AvailableTechniques& available);
+template <class Query>
+[[nodiscard]] Status check_query(const Query& query, const AvailableTechniques& available) {
+    const double* tolerance = nullptr;
+    if constexpr (requires { query.tolerance; }) {
+        tolerance = &query.tolerance;
+    }
+    Status status =
+        check_common({query.technique, unanswered(query.technique, query),
+                      unanswered(Technique::cpu, query), tolerance, query.a.pose, query.b.pose},
+                     available);
+    return status.ok() ? check_own(query) : status;
+}
 
 /// The error for a query that needs a second submission when there is only one command buffer.
 [[nodiscard]] Status not_recordable(Technique technique);

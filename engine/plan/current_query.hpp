@@ -25,6 +25,16 @@ struct CurrentQuery {
     }
 };
 
+/// Adds what a search of hierarchies found, and took, to the statistics of a result.
+inline void count_chains(const localize::Effort& effort, const std::vector<localize::Chain>& chains,
+                         ResultSummary& result) {
+    result.localization.nodes_evaluated += effort.nodes_evaluated;
+    result.localization.pairs_rejected += effort.pairs_rejected;
+    for (const localize::Chain& chain : chains) {
+        result.localization.edges_kept += chain.count;
+    }
+}
+
 /// Replaces `chains` by those that a search of hierarchies appends to them; adds what it took to
 /// the statistics. `search` returns its effort.
 template <class Search>
@@ -32,12 +42,7 @@ void find_chains(Plan& plan, ResultSummary& result, std::vector<localize::Chain>
                  Search&& search) {
     const Stopwatch start;
     chains.clear();
-    const localize::Effort effort = search();
-    result.localization.nodes_evaluated += effort.nodes_evaluated;
-    result.localization.pairs_rejected += effort.pairs_rejected;
-    for (const localize::Chain& chain : chains) {
-        result.localization.edges_kept += chain.count;
-    }
+    count_chains(search(), chains, result);
     plan.localize_milliseconds += start.milliseconds();
 }
 

@@ -61,6 +61,16 @@ Result& make_empty(AnyResult& any, bool keeps_cells = false) {
     return result;
 }
 
+/// Makes the result of a query empty, with a status.
+inline void make_refused(const AnyQuery& any_query, const Status& status, AnyResult& any) {
+    std::visit(
+        [&](const auto& query) {
+            using Result = typename std::decay_t<decltype(query)>::Result;
+            make_empty<Result>(any).status = status;
+        },
+        any_query);
+}
+
 /// Gives a result that is not done a status, and takes from it what was found so far.
 inline void cut_short(const Status& status, AnyResult& any) {
     std::visit(

@@ -2,6 +2,7 @@
 
 #include <engine/plan/plan_limits.hpp>
 
+#include <atomic>
 #include <cstdint>
 
 namespace nearfield::plan {
@@ -10,19 +11,20 @@ namespace nearfield::plan {
 /// than that. Smaller images only mean more tile batches.
 [[nodiscard]] PlanLimits with_affordable_atlas(PlanLimits limits);
 
-/// The memory that one batch needs, in bytes, added up query by query while it is planned.
+/// The memory that one batch needs, in bytes, added up query by query, possibly in several jobs at
+/// once.
 class MemoryBudget {
 public:
-    /// `counts_closely`: no query is answered by brute force before localisation shows how many
-    /// records it can have.
-    MemoryBudget(const PlanLimits& limits, bool counts_closely);
+    /// `counts_closely`: no query is left to the device before localisation shows how many points
+    /// it can have.
+    explicit MemoryBudget(const PlanLimits& limits, bool counts_closely = false);
 
-    /// Whether more is needed than there is, because records were estimated roughly.
+    /// Adds what other parts of the batch need.
+    void add(double bytes) { required_ += bytes; }
+    /// Whether more is needed than there is, because points were estimated roughly.
     [[nodiscard]] bool is_exceeded() const { return result_bytes() > for_results_; }
     /// Bytes that all results may need on the host.
     [[nodiscard]] double result_bytes() const { return required_ + rough_; }
-    /// Number of jobs that can run at the same time; at least 1.
-    [[nodiscard]] std::uint32_t jobs_with_room() const;
 
 private:
     friend class QueryMemory;
@@ -30,11 +32,9 @@ private:
     double limit_;        // for all
     double images_;       // what the atlas takes of it
     double for_results_;  // the rest
-    double max_to_keep_;  // samples of a query, at once
     bool counts_closely_;
-    double max_kept_ = 0.0;  // samples of any query of the batch
-    double required_ = 0.0;
-    double rough_ = 0.0;  // that records may take of queries that were not localised
+    std::atomic<double> required_ = 0.0;
+    double rough_ = 0.0;  // that points may take of queries that were not localised
 };
 
 /// What one query adds to the budget of its batch.
@@ -46,17 +46,24 @@ public:
     /// Adds bytes. Throws StatusException (too_large), with a tolerance that fits, if the batch has
     /// no room for them. `growth`: memory grows with (1/d)^growth.
     void require(double bytes, double growth);
-    /// Returns whether the query may be answered from whole boundaries, with so many samples kept
-    /// at once and results of at most so many bytes, which are a rough estimate.
-    [[nodiscard]] bool fits_roughly(double samples_at_once, double bytes);
-    /// The same for what localisation leaves. Throws StatusException (too_large) if the results do
-    /// not fit.
-    [[nodiscard]] bool fits(double samples_at_once, double bytes);
+    /// Adds nothing, but throws as require() does if a batch of this query alone has no room for
+    /// its points, or if they are more than can be numbered. `kept`: bytes of a point; `rough`: a
+    /// bound on their number; `closely()`: a better bound, which is only asked for if the rough one
+    /// is too large.
+    template <class Closely>
+    void require_alone(double kept, double rough, const Closely& closely) {
+        if (!fits_alone(kept, rough)) {
+            require_alone(kept, closely());
+        }
+    }
+    /// Adds a rough estimate of the device's points on whole boundaries, or returns false if they
+    /// have to be counted closely.
+    [[nodiscard]] bool fits_roughly(double bytes);
 
 private:
-    /// Returns whether this many boundary samples, and what is derived from them, may be kept at
-    /// once.
-    [[nodiscard]] bool can_keep(double samples);
+    [[nodiscard]] bool fits_alone(double kept, double points) const;
+    void require_alone(double kept, double points);
+    [[noreturn]] void refuse(double required, double growth) const;
 
     MemoryBudget& batch_;
     std::uint32_t query_;

@@ -1,4 +1,4 @@
-#include <engine/geometry/magnitude.hpp>
+#include <engine/base/stopwatch.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/overlap_planner.hpp>
@@ -13,27 +13,6 @@
 
 namespace nearfield::plan {
 namespace {
-
-using geometry::Box;
-using geometry::TransformedPolygon;
-
-constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
-
-// Host memory per sample: in the result and in the buffers on the way there.
-constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
-
-// Memory per cell with a resident sample: its hit, or its run of edges, and space for the sample.
-constexpr double bytes_per_resident_cell = sizeof(std::uint32_t) + sizeof(IntersectionSampleData);
-
-/// Memory for an intersection in these regions, without bit masks.
-double bytes_of_samples(const IntersectionQuery& query, const Regions& regions,
-                        double largest_tile) {
-    const double cells = regions.cells();
-    const bool stay = query.on_device && query.samples_on_device;
-    return (!query.summary_only ? bytes_per_sample * cells
-                                : bytes_per_tile * regions.tiles(largest_tile)) +
-           (stay ? bytes_per_resident_cell * cells : 0.0);
-}
 
 /// Checks that the device has what a strategy needs, if it draws; the result states the error.
 bool check_strategy(IntersectionStrategy strategy, const CurrentQuery& current,
@@ -63,18 +42,6 @@ bool check_shapes(const CurrentQuery& current, ResultSummary& result) {
                                                 " bytes; a storage buffer of this device holds " +
                                                 std::to_string(current.limits.largest_range)};
     return false;
-}
-
-/// Checks that the deviations and the boxes of both shapes are compatible with the tolerance; the
-/// result states the error.
-bool check_boxes(const PlannedQuery& planned, const Box& a, const Box& b, ResultSummary& result) {
-    result.status = check_deviations(result.tolerance, planned.deviations, planned.budget.bound);
-    if (result.status.ok()) {
-        result.status = check_resolution(
-            result.tolerance,
-            std::max(geometry::largest_magnitude(a), geometry::largest_magnitude(b)));
-    }
-    return result.status.ok();
 }
 
 /// Checks that the samples fit where they are to stay: either every cell has space, or the query is
@@ -111,75 +78,26 @@ bool check_resident(const IntersectionQuery& query, double cells, std::uint64_t 
 void OverlapPlanner::plan(const IntersectionQuery& query, CurrentQuery& current,
                           IntersectionResult& result) {
     const PlanLimits& limits = current.limits;
-    PlannedQuery& planned = current.planned();
-    auto& overlap = planned.work.emplace<PlannedOverlap>();
-    const bool on_cpu = planned.technique == Technique::cpu;
-    // The CPU's answers must not depend on the device.
-    const geometry::SubpixelGrid grid = on_cpu ? geometry::cpu_grid : limits.subpixel;
-    planned.budget = intersection_budget(query, grid, planned.deviations);
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
-    result.kind = query.kind;
-    result.strategy = query.strategy;
-    const TransformedPolygon a(*planned.a, planned.pose_a);
-    const TransformedPolygon b(*planned.b, planned.pose_b);
-    const Box box_a = a.box();
-    const Box box_b = b.box();
-    if (!check_strategy(query.strategy, current, result) || !check_shapes(current, result) ||
-        !check_boxes(planned, box_a, box_b, result)) {
+    const PlannedQuery& planned = current.planned();
+    if (!check_strategy(query.strategy, current, result) || !check_shapes(current, result)) {
         return;
     }
-    if (query.kind == IntersectionKind::volume_volume) {
-        cover_common_volume(a, b, box_a.intersection(box_b), current, result);
-    } else {
-        cover_boundary(query.kind, a, b, box_b, current, result);
-    }
-    if (planned.on_device &&
-        !check_resident(query, regions_.cells(), limits.largest_range, result)) {
+    const Stopwatch start;
+    const bool is_covered = overlaps_.cover(planned, limits, result);
+    current.plan.localize_milliseconds += start.milliseconds();
+    const Regions& regions = overlaps_.regions();
+    if (!is_covered || (planned.on_device &&
+                        !check_resident(query, regions.cells(), limits.largest_range, result))) {
         return;
     }
-    current.memory.require(bytes_of_samples(query, regions_, limits.largest_tile) +
+    current.memory.require(overlaps_.bytes_of_samples(query, limits.largest_tile) +
                                (planned.technique == Technique::compute
-                                    ? regions_.bytes_of_masks(2, limits.largest_tile)
+                                    ? regions.bytes_of_masks(2, limits.largest_tile)
                                     : 0.0),
                            2.0);
-    regions_.require_sides(current.index, query.tolerance);
-    // Tiles of queries that the CPU answers are kept apart.
-    std::vector<Tile>& cpu_tiles = current.plan.cpu_tiles;
-    overlap.first_tile = static_cast<std::uint32_t>(cpu_tiles.size());
-    regions_.cut_into_tiles(current.index, TileKind::overlap, limits.largest_tile, 0,
-                            on_cpu ? cpu_tiles : current.plan.tiles);
-    overlap.tile_count = static_cast<std::uint32_t>(cpu_tiles.size()) - overlap.first_tile;
-}
-
-void OverlapPlanner::cover_common_volume(const TransformedPolygon& a, const TransformedPolygon& b,
-                                         const Box& within, CurrentQuery& current,
-                                         ResultSummary& result) {
-    find_chains(current.plan, result, chains_, [&] {
-        return localize::chains_in_each_other(a, b, current.overlap_options(0.0), chains_, chains_);
-    });
-    // The boundary of the overlap consists of the parts of either boundary in the other volume: one
-    // box covers it all.
-    if (!chains_.empty()) {
-        for (const localize::Chain& chain : chains_) {
-            chains_.front().box.extend(chain.box);
-        }
-        chains_.resize(1);
-    }
-    regions_.cover(chains_, 0.0, within, result);
-}
-
-void OverlapPlanner::cover_boundary(IntersectionKind kind, const TransformedPolygon& a,
-                                    const TransformedPolygon& b, const Box& within,
-                                    CurrentQuery& current, ResultSummary& result) {
-    const double grow = current.planned().budget.bound;
-    find_chains(current.plan, result, chains_, [&] {
-        return kind == IntersectionKind::boundary_volume
-                   ? localize::chains_in_volume(a, b, current.overlap_options(grow), chains_)
-                   : localize::chains_near_boundary(a, b, current.overlap_options(2.0 * grow),
-                                                    chains_);
-    });
-    regions_.cover(chains_, grow, geometry::grown(within, grow), result);
+    regions.require_sides(current.index, query.tolerance);
+    regions.cut_into_tiles(current.index, TileKind::overlap, limits.largest_tile, 0,
+                           current.plan.tiles);
 }
 
 }  // namespace nearfield::plan

@@ -2,13 +2,6 @@
 
 namespace nearfield::plan {
 
-double max_points(const PlannedQuery& query) {
-    const auto* const penetration = std::get_if<PenetrationQuery>(query.query);
-    return penetration != nullptr && penetration->points == PenetrationPoints::vertices
-               ? static_cast<double>(query.a->size())
-               : max_samples(*query.a, query.budget.cell);
-}
-
 void Plan::clear() {
     // Everything but the queries: the planner overwrites each of them, and clearing thousands would
     // write them twice.
@@ -16,7 +9,6 @@ void Plan::clear() {
     searched.clear();
     with_gradient_normals.clear();
     tiles.clear();
-    cpu_tiles.clear();
     points.clear();
     field_points.clear();
     extent = {};

@@ -4,6 +4,7 @@
 #include <engine/geometry/transformed_polygon.hpp>
 #include <engine/plan/atlas.hpp>
 #include <engine/plan/boundary_points.hpp>
+#include <engine/plan/checked_query.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/field_parts.hpp>
 #include <engine/plan/grid.hpp>
@@ -55,7 +56,7 @@ struct Tile {
 
 /// A boundary point and the tile that its cell belongs to.
 struct PlannedPoint {
-    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< for points that the CPU answers
+    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< for points that the device has found
 
     BoundaryPoint point;
     std::uint32_t tile = 0;
@@ -63,8 +64,6 @@ struct PlannedPoint {
 
 /// A point at which a field is reconstructed, between four cells of a tile.
 struct PlannedFieldPoint {
-    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< for points that the CPU answers
-
     geometry::Vector position;  ///< in the world
     std::uint32_t tile = 0;
     std::uint32_t column = 0;  ///< of the low one of the four cells, in the tile, or grid, as drawn
@@ -75,9 +74,8 @@ struct PlannedFieldPoint {
 
 /// Who decides which points of a boundary matter to a query.
 enum class PointSource : std::uint8_t {
-    planner,      ///< they are in Plan::points
-    brute_force,  ///< Technique::cpu: PointPenetration or PointContacts visits all of them
-    device,       ///< Technique::compute: its search between pairs (Plan::searched) finds them
+    planner,  ///< they are in Plan::points
+    device,   ///< Technique::compute: its search between pairs (Plan::searched) finds them
 };
 
 /// The points of A's boundary that a query, or one direction of it, resolves in the field of B.
@@ -106,28 +104,13 @@ struct PlannedField {
     double farthest = 0.0;
 };
 
-/// What is planned for an intersection on the CPU.
-struct PlannedOverlap {
-    std::uint32_t first_tile = 0;  ///< in Plan::cpu_tiles
-    std::uint32_t tile_count = 0;
-};
-
-/// The planned form of a query, or of one direction of it. The polygons live in the shape store
-/// until the batch is done.
-struct PlannedQuery {
-    const AnyQuery* query = nullptr;
-    const geometry::Polygon* a = nullptr;  // null where the query has none
-    const geometry::Polygon* b = nullptr;
-    Pose pose_a;
-    Pose pose_b;
-    Deviations deviations;  ///< of both shapes
-    ErrorBudget budget;
-    /// Technique::compute: its tiles have no place in the atlas, and tile batches of their own.
-    Technique technique{};
+/// The planned form of a query that a device answers, or of one direction of it. Tiles of
+/// Technique::compute have no place in the atlas, and tile batches of their own.
+struct PlannedQuery : CheckedQuery {
     /// Its results stay on the device as well.
     bool on_device = false;
-    /// Nothing for a query that the CPU alone answers, or that was rejected.
-    std::variant<std::monostate, PlannedPoints, PlannedField, PlannedOverlap> work;
+    /// Nothing for an intersection, or a query that was rejected.
+    std::variant<std::monostate, PlannedPoints, PlannedField> work;
 
     [[nodiscard]] PlannedPoints& points() { return std::get<PlannedPoints>(work); }
     [[nodiscard]] const PlannedPoints& points() const { return std::get<PlannedPoints>(work); }
@@ -138,10 +121,6 @@ struct PlannedQuery {
         return points != nullptr && points->source == source;
     }
 };
-
-/// Upper bound on the points of A's boundary that a penetration or contact query, or one direction
-/// of it, examines at any poses. A double, since it may be huge.
-[[nodiscard]] double max_points(const PlannedQuery& query);
 
 /// A query, or one direction of it, whose points the device searches: all that the search needs to
 /// know, close together, as plans of thousands of queries exceed the processor's caches.
@@ -187,9 +166,11 @@ private:
     std::vector<std::uint32_t> order_;
 };
 
-/// A batch as tiles: what is rendered, where, and for which query.
+/// The queries of a batch that a device answers, as tiles and searches: what is rendered, where,
+/// and for which query.
 struct Plan {
-    /// By position in the batch, followed by the other directions of some queries.
+    /// By position in the batch, where a device answers, followed by the other directions of some
+    /// queries.
     std::vector<PlannedQuery> queries;
     BoundingVolume bounding_volume{};     ///< that hierarchies are made of
     std::vector<std::uint32_t> resident;  ///< queries whose results stay on the device as well
@@ -197,7 +178,6 @@ struct Plan {
     /// Contact queries with gradient normals.
     std::vector<std::uint32_t> with_gradient_normals;
     std::vector<Tile> tiles;
-    std::vector<Tile> cpu_tiles;                  ///< of overlaps that the CPU finds, by query
     std::vector<PlannedPoint> points;             ///< in order of queries, then along A's rings
     std::vector<PlannedFieldPoint> field_points;  ///< by query, then as in the query
     TileSize extent;                              ///< of the atlas
@@ -209,8 +189,6 @@ struct Plan {
     ByTileBatch field_points_by_batch;
     /// Bytes that all results may need on the host.
     double result_bytes = 0.0;
-    /// Number of jobs that can run at the same time within the memory limit; at least 1.
-    std::uint32_t max_jobs = 1;
     double localize_milliseconds = 0.0;  ///< spent in hierarchies
     /// The times of the batch's queries, which planning and answering add to; empty if nobody asked
     /// for them. Outlives clear().

@@ -33,8 +33,6 @@ double bytes_of_point(const PlannedQuery& query) {
 
 // For either boundary, in a search that is finished exactly.
 constexpr double max_search_samples = 4096.0;
-// For a whole boundary: keeps numbers of samples, and of the parts of an edge, within 32 bits.
-constexpr double max_numbered_samples = 1U << 30U;
 
 /// Checks that deviations and coordinates are compatible with the tolerance; the result states the
 /// error.
@@ -67,32 +65,10 @@ std::uint32_t add_reverse(CurrentQuery& current) {
     return index;
 }
 
-/// Who finds the points of a query if the memory suffices, of which there are `samples` on the
-/// boundaries that it looks at. What the device cannot search is left to the CPU.
-PointSource source_for(double samples, CurrentQuery& current) {
-    PlannedQuery& planned = current.planned();
-    if (planned.technique == Technique::compute && !planned.on_device) {
-        if (samples <= max_searched_points &&
-            max_shape_bytes(*planned.a, *planned.b) <= current.limits.largest_range) {
-            return PointSource::device;
-        }
-        planned.technique = Technique::cpu;
-    }
-    const bool is_by_edge = planned.technique == Technique::cpu && samples <= max_numbered_samples;
-    return is_by_edge ? PointSource::brute_force : PointSource::planner;
-}
-
-/// Whether whole boundaries of so many samples may be left to a source. `kept`: bytes of each point
-/// found, at most. The device keeps its samples itself.
-bool fits_roughly(PointSource source, double samples, double kept, QueryMemory& memory) {
-    return source != PointSource::planner &&
-           memory.fits_roughly(source == PointSource::device ? 0.0 : samples, kept * samples);
-}
-
-/// The same for what localisation leaves of them. Throws as QueryMemory does.
-bool fits(PointSource source, double samples, double kept, QueryMemory& memory) {
-    return source != PointSource::planner &&
-           memory.fits(source == PointSource::device ? 0.0 : samples, kept * samples);
+/// What stays on the device is not searched there, but planned here.
+PointSource source_of(const PlannedQuery& planned) {
+    return planned.technique == Technique::compute && !planned.on_device ? PointSource::device
+                                                                         : PointSource::planner;
 }
 
 void add_search(std::uint32_t direction, const TransformedPolygon& a, const TransformedPolygon& b,
@@ -191,44 +167,22 @@ void PointPlanner::add_samples(std::uint32_t direction, const Box& within, Curre
     const TransformedPolygon a(*planned.a, planned.pose_a);
     PlannedPoints& points = planned.points();
     points.first = static_cast<std::uint32_t>(plan.points.size());
-    if (planned.technique == Technique::cpu) {
-        for (const BoundaryPoint& sample : samples_) {
-            if (within.contains(position(a, sample))) {
-                plan.points.push_back({sample, PlannedPoint::no_tile});
-            }
-        }
-    } else {
-        tiles_.spread(a, samples_, within, regions_.boxes(), regions_.grids(), direction, plan);
-    }
+    tiles_.spread(a, samples_, within, regions_.boxes(), regions_.grids(), direction, plan);
     points.count = static_cast<std::uint32_t>(plan.points.size()) - points.first;
-}
-
-/// Leaves the points of the query to a source that needs none planned.
-void PointPlanner::leave_to(PointSource source, double reach, bool both_ways, CurrentQuery& current,
-                            ResultSummary& result) {
-    current.planned().points().source = source;
-    if (source == PointSource::device) {
-        search(reach, both_ways, instances_, current, result);
-    }
 }
 
 void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
                         PenetrationResult& result) {
     PlannedQuery& planned = current.planned();
     auto& points = planned.work.emplace<PlannedPoints>();
-    planned.budget = penetration_budget(query, planned.deviations);
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
-    const double of_boundary = query.points == PenetrationPoints::vertices
-                                   ? static_cast<double>(planned.a->size())
-                                   : max_samples(*planned.a, result.cell);
-    const PointSource source = source_for(of_boundary, current);
+    points.source = source_of(planned);
+    const bool is_searched = points.source == PointSource::device;
     // Of points that are only counted the device leaves out those that cannot be the deepest.
-    points.summarized = source == PointSource::device && query.summary_only;
+    points.summarized = is_searched && query.summary_only;
     const double kept = (!query.summary_only ? sizeof(PenetratingPoint) : 0.0) +
-                        (points.summarized || source != PointSource::device ? 0.0 : bytes_of_found);
-    if (fits_roughly(source, of_boundary, kept, current.memory)) {
-        leave_to(source, 0.0, false, current, result);
+                        (points.summarized ? 0.0 : bytes_of_found);
+    if (is_searched && current.memory.fits_roughly(kept * max_points(planned))) {
+        search(0.0, false, instances_, current, result);
         return;
     }
     if (!check_numbers(planned, result)) {
@@ -238,8 +192,9 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
     if (chains_[0].empty()) {
         return;
     }
-    if (fits(source, samples, kept, current.memory)) {
-        leave_to(source, 0.0, false, current, result);
+    if (is_searched) {
+        current.memory.require(kept * samples, 1.0);
+        search(0.0, false, instances_, current, result);
     } else {
         add_deepest(query, samples, current, result);
     }
@@ -265,26 +220,19 @@ void PointPlanner::add_deepest(const PenetrationQuery& query, double samples, Cu
 
 void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, ContactResult& result) {
     PlannedQuery& planned = current.planned();
-    planned.budget = contact_budget(query.tolerance, planned.deviations);
     auto& points = planned.work.emplace<PlannedPoints>();
+    points.source = source_of(planned);
     points.outside = true;
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
-    const bool gradients = query.normals == ContactNormals::gradient;
-    if (gradients) {
+    const bool is_searched = points.source == PointSource::device;
+    if (query.normals == ContactNormals::gradient) {
         current.plan.with_gradient_normals.push_back(current.index);
     }
     const double of_boundaries =
         max_samples(*planned.a, result.cell) + max_samples(*planned.b, result.cell);
-    PointSource source = source_for(of_boundaries, current);
-    if (gradients && source == PointSource::brute_force) {
-        source = PointSource::planner;  // they are computed around points of the plan
-    }
     const double near = query.contact_distance;
-    const double kept = (!query.summary_only ? sizeof(ContactPoint) : 0.0) +
-                        (source == PointSource::device ? bytes_of_found : 0.0);
-    if (fits_roughly(source, of_boundaries, kept, current.memory)) {
-        leave_to(source, near, true, current, result);
+    const double kept = (!query.summary_only ? sizeof(ContactPoint) : 0.0) + bytes_of_found;
+    if (is_searched && current.memory.fits_roughly(kept * of_boundaries)) {
+        search(near, true, instances_, current, result);
         return;
     }
     if (!check_numbers(planned, result)) {
@@ -294,8 +242,9 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const double of_a = find_near(a, b, near, current, chains_[0], result);
     const double of_b = find_near(b, a, near, current, chains_[1], result);
-    if (fits(source, of_a + of_b, kept, current.memory)) {
-        leave_to(source, near, true, current, result);
+    if (is_searched) {
+        current.memory.require(kept * (of_a + of_b), 1.0);
+        search(near, true, instances_, current, result);
         return;
     }
     const std::uint32_t reverse = add_reverse(current);
@@ -322,26 +271,20 @@ void PointPlanner::add_near(std::uint32_t direction, double contact_distance,
     add_samples(direction, within, current);
 }
 
-void PointPlanner::plan(const ClosestPointQuery& query, CurrentQuery& current,
+void PointPlanner::plan(const ClosestPointQuery& /*query*/, CurrentQuery& current,
                         ClosestPointResult& result) {
-    plan_closest(query.tolerance, false, current, result);
+    plan_closest(false, current, result);
 }
 
-void PointPlanner::plan(const SeparationQuery& query, CurrentQuery& current,
+void PointPlanner::plan(const SeparationQuery& /*query*/, CurrentQuery& current,
                         SeparationResult& result) {
-    plan_closest(query.tolerance, true, current, result);
+    plan_closest(true, current, result);
 }
 
-void PointPlanner::plan_closest(double tolerance, bool both_ways, CurrentQuery& current,
-                                ResultSummary& result) {
+void PointPlanner::plan_closest(bool both_ways, CurrentQuery& current, ResultSummary& result) {
     PlannedQuery& planned = current.planned();
-    planned.budget = search_budget(tolerance);
     planned.work.emplace<PlannedPoints>().outside = true;
     result.cell = planned.budget.cell;
-    if (planned.technique != Technique::raster) {
-        planned.technique = Technique::cpu;
-        return;  // ClosestDecoder does the rest
-    }
     if (!check_numbers(planned, result)) {
         return;
     }

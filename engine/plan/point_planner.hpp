@@ -14,8 +14,8 @@
 namespace nearfield::plan {
 
 /// Plans queries about points of one boundary in the field of the other. Which points, is decided
-/// in one of three ways: brute force on the CPU over all samples, a search by the device, or
-/// localisation and samples here. Reuses its memory from query to query.
+/// by a search of the device, or by localisation and samples here. Reuses its memory from query to
+/// query.
 class PointPlanner {
 public:
     explicit PointPlanner(const PlanLimits& limits);
@@ -29,16 +29,13 @@ public:
     void plan(const SeparationQuery& query, CurrentQuery& current, SeparationResult& result);
 
 private:
-    void leave_to(PointSource source, double reach, bool both_ways, CurrentQuery& current,
-                  ResultSummary& result);
     /// Samples the chains of A; `samples` is an upper bound on their number.
     void add_deepest(const PenetrationQuery& query, double samples, CurrentQuery& current,
                      PenetrationResult& result);
     void add_near(std::uint32_t direction, double contact_distance,
                   const std::vector<localize::Chain>& chains, double samples, CurrentQuery& current,
                   ResultSummary& result);
-    void plan_closest(double tolerance, bool both_ways, CurrentQuery& current,
-                      ResultSummary& result);
+    void plan_closest(bool both_ways, CurrentQuery& current, ResultSummary& result);
     /// Finds the chains that can hold the closest point; returns an upper bound on their samples.
     [[nodiscard]] double find_closest(std::uint32_t direction, const CurrentQuery& current,
                                       std::vector<localize::Chain>& chains, ResultSummary& result);

@@ -13,9 +13,9 @@ namespace nearfield::plan {
 
 using geometry::Box;
 
-void Regions::cover(const Box& box, ResultSummary& result) {
-    boxes_.assign(1, box);
-    make_grids(result);
+void Regions::set(const Grid& grid) {
+    boxes_.clear();
+    grids_.assign(1, grid);
 }
 
 void Regions::cover(const std::vector<localize::Chain>& chains, double grow, const Box& within,

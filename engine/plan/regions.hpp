@@ -15,10 +15,10 @@ namespace nearfield::plan {
 /// memory from query to query.
 class Regions {
 public:
-    /// Starts over with this box, and states its region in the result. Cells are the result's.
-    void cover(const geometry::Box& box, ResultSummary& result);
-    /// The same with boxes that cover the chains, each grown by `grow` on every side, as far as
-    /// they lie in `within`.
+    /// Starts over with this grid, whose region the result states already.
+    void set(const Grid& grid);
+    /// Starts over with boxes that cover the chains, each grown by `grow` on every side, as far as
+    /// they lie in `within`, and states their regions in the result. Cells are the result's.
     void cover(const std::vector<localize::Chain>& chains, double grow, const geometry::Box& within,
                ResultSummary& result);
 

@@ -68,15 +68,11 @@ void TilePacker::pack(Plan& plan) {
     const std::vector<PlannedFieldPoint>& field_points = plan.field_points;
     plan.tiles_by_batch.sort(tiles.size(), plan.tile_batches,
                              [&](std::size_t i) { return tiles[i].place.tile_batch; });
-    // Points that the CPU answers have no tile: they follow all tile batches.
-    const std::uint32_t no_tile_batch = plan.tile_batches;
-    plan.points_by_batch.sort(points.size(), plan.tile_batches + 1, [&](std::size_t i) {
-        const std::uint32_t tile = points[i].tile;
-        return tile == PlannedPoint::no_tile ? no_tile_batch : tiles[tile].place.tile_batch;
+    plan.points_by_batch.sort(points.size(), plan.tile_batches, [&](std::size_t i) {
+        return tiles[points[i].tile].place.tile_batch;
     });
-    plan.field_points_by_batch.sort(field_points.size(), plan.tile_batches + 1, [&](std::size_t i) {
-        const std::uint32_t tile = field_points[i].tile;
-        return tile == PlannedFieldPoint::no_tile ? no_tile_batch : tiles[tile].place.tile_batch;
+    plan.field_points_by_batch.sort(field_points.size(), plan.tile_batches, [&](std::size_t i) {
+        return tiles[field_points[i].tile].place.tile_batch;
     });
 }
 

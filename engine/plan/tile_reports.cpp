@@ -6,15 +6,14 @@ void report_tiles(const Plan& plan, std::vector<TileReport>& reports) {
     reports.reserve(reports.size() + plan.tiles.size());
     for (const Tile& tile : plan.tiles) {
         const PlannedQuery& planned = plan.queries[tile.query];
-        // The other direction of a query follows all queries of the batch.
-        const auto query = static_cast<std::uint32_t>(planned.query - plan.queries.front().query);
         const geometry::Vector low = tile.origin();
         const geometry::Vector high =
             low + tile.grid.cell * geometry::Vector(tile.width, tile.height);
         TileReport& report = reports.emplace_back();
-        report.query = query;
+        report.query = planned.index;
         report.technique = planned.technique;
-        report.side = query == tile.query ? Side::a : Side::b;
+        // The other direction of a query follows all queries of the batch.
+        report.side = planned.index == tile.query ? Side::a : Side::b;
         report.min = geometry::to_public(low);
         report.max = geometry::to_public(high);
         report.width = tile.width;

@@ -2,6 +2,8 @@
 #include <engine/plan/error_budget.hpp>
 #include <engine/records/found_contacts.hpp>
 
+#include <shaders/layout.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

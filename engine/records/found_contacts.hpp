@@ -4,7 +4,7 @@
 #include <engine/plan/boundary_points.hpp>
 #include <engine/records/boundary_normal.hpp>
 #include <engine/records/manifold.hpp>
-#include <engine/records/point_resolver.hpp>
+#include <engine/records/resolved_point.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 

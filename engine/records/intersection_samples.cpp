@@ -8,7 +8,7 @@ namespace nearfield::records {
 namespace {
 
 /// The edge of A nearest to a point, among a run of edges.
-std::uint32_t nearest_edge(const plan::PlannedQuery& query, plan::EdgeRun run,
+std::uint32_t nearest_edge(const plan::CheckedQuery& query, plan::EdgeRun run,
                            const geometry::Vector& point) {
     if (run.count == 1) {
         return run.first;
@@ -37,13 +37,13 @@ geometry::Vector centre_of_cell(const plan::Tile& tile, std::uint32_t column, st
 
 }  // namespace
 
-IntersectionSample make_sample(const plan::PlannedQuery& planned, const plan::Tile& tile,
+IntersectionSample make_sample(const plan::CheckedQuery& query, const plan::Tile& tile,
                                std::uint32_t column, std::uint32_t row, plan::EdgeRun run) {
     const geometry::Vector point = centre_of_cell(tile, column, row);
     const bool by_edge =
-        std::get<IntersectionQuery>(*planned.query).kind != IntersectionKind::volume_volume;
+        std::get<IntersectionQuery>(*query.query).kind != IntersectionKind::volume_volume;
     return {geometry::to_public(point),
-            by_edge ? nearest_edge(planned, run, point) : IntersectionSample::no_edge};
+            by_edge ? nearest_edge(query, run, point) : IntersectionSample::no_edge};
 }
 
 void add_summary(const plan::Tile& tile, const plan::TileSummary& summary,

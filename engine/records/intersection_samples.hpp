@@ -13,7 +13,7 @@ namespace nearfield::records {
 
 /// Returns the sample at the centre of a cell of a tile. `run`: edges of A, if A takes part with
 /// its boundary.
-[[nodiscard]] IntersectionSample make_sample(const plan::PlannedQuery& planned,
+[[nodiscard]] IntersectionSample make_sample(const plan::CheckedQuery& query,
                                              const plan::Tile& tile, std::uint32_t column,
                                              std::uint32_t row, plan::EdgeRun run);
 

@@ -2,6 +2,7 @@
 
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/pair_search.hpp>
+#include <engine/solvers/placed_pair.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/device_pairs.hpp>
 
@@ -94,7 +95,7 @@ void DevicePairs::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
         fill(row, data, std::get<PenetrationResult>(answer_on_cpu(data, false)));
         return;
     }
-    const records::PenetrationSummary summary =
+    const readback::PenetrationSummary summary =
         resolver_.summarize_penetration(plan_pair(data), data, question_.tolerance);
     PenetrationResult result;
     result.count = summary.count;
@@ -161,7 +162,7 @@ bool DevicePairs::do_intersect(const plan::PairRowData& data) {
         return true;
     }
     edges_.clear();
-    return intersection_test_.intersect(plan_pair(data), edges_);
+    return solvers::intersect(plan_pair(data), edges_, overlap_test_);
 }
 
 void DevicePairs::row(std::uint32_t index, PairRow<ContactQuery>& row) {

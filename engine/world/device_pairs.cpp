@@ -6,6 +6,7 @@
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/pair_search.hpp>
+#include <engine/solvers/placed_pair.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/device_pairs.hpp>
 #include <nearfield/portable_math.hpp>
@@ -109,12 +110,11 @@ bool DevicePairs::is_hit(const AnyResult& answer, const plan::PairRowData& data)
 
 /// Whether the instances of a pair share a point, for a table of intersection tests.
 bool DevicePairs::do_share_a_point(const plan::PairRowData& pair) {
-    const auto place = [this](std::uint32_t number) {
-        const Instance& instance = instances_[number].instance;
-        return edges_.place(*polygon_of(instance.shape), instance.pose);
-    };
+    const Instance& a = instances_[pair.a].instance;
+    const Instance& b = instances_[pair.b].instance;
     edges_.clear();
-    return intersection_test_.intersect({place(pair.a), place(pair.b)}, edges_);
+    return solvers::intersect({polygon_of(a.shape), polygon_of(b.shape), a.pose, b.pose}, edges_,
+                              overlap_test_);
 }
 
 /// Answers the undecided rows.

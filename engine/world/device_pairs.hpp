@@ -1,12 +1,11 @@
 #pragma once
 
 #include <engine/context/implementation.hpp>
-#include <engine/cpu/intersection_test.hpp>
-#include <engine/decode/contacts.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/readback/contacts.hpp>
+#include <engine/readback/point_resolver.hpp>
 #include <engine/records/found_contacts.hpp>
-#include <engine/records/point_resolver.hpp>
 #include <engine/render/pair_search_buffers.hpp>
 #include <engine/world/device_instances.hpp>
 #include <engine/world/instances.hpp>
@@ -126,8 +125,8 @@ private:
     }
     /// The pair as a planned query, until the next one.
     [[nodiscard]] const plan::PlannedQuery& plan_pair(const plan::PairRowData& data);
-    [[nodiscard]] records::QueryPoints points_of(std::uint32_t row, std::uint32_t first,
-                                                 std::uint32_t count) const {
+    [[nodiscard]] readback::QueryPoints points_of(std::uint32_t row, std::uint32_t first,
+                                                  std::uint32_t count) const {
         return {.found = buffers_->records(row, first, count)};
     }
     /// Those of a row of the device.
@@ -150,7 +149,7 @@ private:
     Timings& timings_;
     const plan::PairQuestion question_;  // that it asks of the device
     std::optional<DevicePoses> poses_;   // of the host
-    records::PointResolver resolver_;
+    readback::PointResolver resolver_;
     Context::Implementation* context_ = nullptr;
     std::weak_ptr<const void> world_;
     std::unique_ptr<render::PairSearchBuffers> buffers_;
@@ -164,10 +163,10 @@ private:
     plan::PlannedQuery of_b_;
     std::vector<AnyQuery> cpu_queries_;
     Results cpu_results_;
-    decode::ContactDecoder contact_decoder_;
+    readback::ContactDecoder contact_decoder_;
     records::FoundContacts found_contacts_;
     ContactResult contacts_;
-    cpu::IntersectionTest intersection_test_;
+    narrowphase::OverlapTest overlap_test_;
     simd::TransformedInstances edges_;
     std::uint64_t filters_ = 0;           // of the world, at the last update
     std::optional<std::uint64_t> frame_;  // of the host, that it was recorded for

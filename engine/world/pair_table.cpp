@@ -4,9 +4,9 @@
 #include <engine/base/jobs.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/context/call_within.hpp>
-#include <engine/cpu/point_penetration.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/solvers/penetration.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/motions.hpp>
 #include <engine/world/pair_list.hpp>
@@ -126,8 +126,7 @@ struct Pair {
 /// What one job needs to answer pairs without a batch.
 struct Job {
     narrowphase::OverlapTest overlap_test;
-    std::optional<cpu::PointPenetration> penetration;  // whose construction may fail
-    cpu::PointPenetration::Reverse reverse;            // of the pair before
+    std::optional<solvers::PenetrationSolver> penetration;  // whose construction may fail
     PenetrationResult result;
 };
 
@@ -143,17 +142,15 @@ static bool is_answered_in_place(const PenetrationQuery& query) {
 /// The answer for two instances whose shapes exist. A result would take longer to make than most
 /// answers.
 static void answer(const IntersectionTestQuery& /*query*/, const world::Instances& instances,
-                   const Pair& pair, bool /*is_reverse*/, Job& job,
-                   PairRow<IntersectionTestQuery>& row) {
+                   const Pair& pair, Job& job, PairRow<IntersectionTestQuery>& row) {
     row.status = StatusCode::ok;
     row.error_bound = instances.rounding(pair.a) + instances.rounding(pair.b) +
                       instances.deviation(pair.a) + instances.deviation(pair.b);
     row.intersects = instances.intersect(pair.a, pair.b, job.overlap_test);
 }
 
-/// Likewise. `is_reverse`: the pair before was the same the other way round.
 static void answer(const PenetrationQuery& query, const world::Instances& instances,
-                   const Pair& pair, bool is_reverse, Job& job, PairRow<PenetrationQuery>& row) {
+                   const Pair& pair, Job& job, PairRow<PenetrationQuery>& row) {
     PenetrationResult& result = job.result;
     result.intersects = false;
     result.count = 0;
@@ -169,19 +166,22 @@ static void answer(const PenetrationQuery& query, const world::Instances& instan
         if (!job.penetration) {
             job.penetration.emplace();
         }
-        job.penetration->answer(query, instances.edges(pair.a), instances.edges(pair.b),
-                                is_reverse ? &job.reverse : nullptr, result);
+        const simd::TransformedEdges& a = instances.edges(pair.a);
+        const simd::TransformedEdges& b = instances.edges(pair.b);
+        job.penetration->answer(query,
+                                {&a.placed.polygon(), &b.placed.polygon(), instances[pair.a].pose,
+                                 instances[pair.b].pose},
+                                a, b, result);
     }
-    job.reverse.intersects = result.intersects;
     row = row_of<PenetrationQuery>({}, {}, result);
 }
 
 /// Writes the row of a pair that is answered in place.
 template <class Query>
-void answer_pair(const Query& query, const world::Instances& instances, const Pair& pair,
-                 bool is_reverse, Job& job, PairRow<Query>& row) {
+void answer_pair(const Query& query, const world::Instances& instances, const Pair& pair, Job& job,
+                 PairRow<Query>& row) {
     if (instances.is_placed(pair.a) && instances.is_placed(pair.b)) {
-        answer(query, instances, pair, is_reverse, job, row);
+        answer(query, instances, pair, job, row);
     } else {
         row = {};
         row.status = StatusCode::unknown_shape;
@@ -667,15 +667,14 @@ private:
         jobs_->divide(count, table::pairs_of_part,
                       [&](std::uint32_t number, std::size_t first, std::size_t end) {
                           table::Job& job = scratch_[number];
-                          table::Pair before{UINT32_MAX, UINT32_MAX};
+                          if (job.penetration) {
+                              job.penetration->begin_batch();
+                          }
                           for (std::size_t i = first; i < end; ++i) {
                               checkpoint();
-                              const table::Pair pair = pair_of(i);
-                              const bool is_reverse = pair.a == before.b && pair.b == before.a;
-                              table::answer_pair(query, instances, pair, is_reverse, job,
+                              table::answer_pair(query, instances, pair_of(i), job,
                                                  answered_.rows[i]);
                               answered_.rows[i].index = static_cast<std::uint32_t>(i);
-                              before = pair;
                           }
                           finish_answers(end - first);
                       });

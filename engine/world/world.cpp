@@ -30,7 +30,7 @@ const geometry::Polygon& World::State::shape(ShapeHandle handle, const char* cal
 }
 
 void World::State::run_batch() {
-    Status status = context->run(batch, results);
+    Status status = context->unless_lost([&] { context->ring().run(batch, results); });
     if (!status.ok()) {
         throw StatusException(status);
     }

@@ -5,6 +5,7 @@
 #include <engine/plan/planner.hpp>
 #include <engine/plan/tile_batch.hpp>
 
+#include <tests/support/checked_queries.hpp>
 #include <tests/support/outlines.hpp>
 
 #include <algorithm>
@@ -133,7 +134,7 @@ void measure(const Scene& scene, int frames) {
                 return shape.index < scene.shapes.size() ? &scene.shapes[shape.index] : nullptr;
             },
             shapes);
-        planner.plan(scene.queries, shapes, plan, results);
+        planner.plan(test::checked_queries(scene.queries, shapes, limits, results), plan, results);
         const double middle = processor_milliseconds();
         builder.begin_batch();
         vertices = 0;

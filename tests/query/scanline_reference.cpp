@@ -6,6 +6,7 @@
 #include <engine/plan/tile_batch.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/checked_queries.hpp>
 #include <tests/support/scanline.hpp>
 
 #include <algorithm>
@@ -131,7 +132,7 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     plan::Plan plan;
     std::vector<AnyResult> results;
     const std::vector<plan::QueryShapes> shapes{{&a, &b}};
-    planner.plan(queries, shapes, plan, results);
+    planner.plan(checked_queries(queries, shapes, limits, results), plan, results);
     plan::TileBatchBuilder builder(limits.subpixel);
     plan::TileBatch batch;
     std::vector<Placed> found;

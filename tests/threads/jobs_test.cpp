@@ -161,11 +161,10 @@ TEST(Jobs, AllocateNothingInTheLongRunWhoeverDoesThem) {
 
 /// The number of jobs, at most eight, for four pairs of squares whose boundaries have `samples`
 /// samples each; 0 if no jobs are used.
-std::uint32_t jobs_for(double samples, std::uint64_t memory) {
+std::uint32_t jobs_for(double samples) {
     std::uint32_t jobs = 0;
     Settings settings;
     settings.jobs = {&jobs, 8, count_jobs};
-    settings.memory_limit = memory;
     Expected<Context> context = Context::create_headless({}, settings);
     EXPECT_TRUE(context.has_value()) << context.error().text();
     const std::vector<Ring> square{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}};
@@ -186,15 +185,8 @@ std::uint32_t jobs_for(double samples, std::uint64_t memory) {
 }
 
 TEST(Jobs, AreDealtOutBySamples) {
-    constexpr std::uint64_t plenty = std::uint64_t{1} << 30U;
-    EXPECT_EQ(jobs_for(40.0, plenty), 0U);
-    EXPECT_EQ(jobs_for(20000.0, plenty), 4U);
-}
-
-TEST(Jobs, AreAsManyAsThereIsMemoryFor) {
-    const std::uint32_t jobs = jobs_for(10000.0, 24U << 20U);
-    EXPECT_GE(jobs, 2U);
-    EXPECT_LE(jobs, 3U);
+    EXPECT_EQ(jobs_for(40.0), 0U);
+    EXPECT_EQ(jobs_for(20000.0), 4U);
 }
 
 TEST(Jobs, ThatWereNotDoneAreAnError) {

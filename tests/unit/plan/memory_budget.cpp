@@ -24,47 +24,58 @@ TEST(MemoryBudget, ImagesTakeAtMostAQuarterOfTheMemory) {
         const PlanLimits limits = limits_with(memory);
         EXPECT_LE(limits.largest_tile, limits.largest_atlas);
         // Three quarters are left to results, but never all of it.
-        MemoryBudget budget(limits, false);
+        MemoryBudget budget(limits);
         QueryMemory query(budget, 0, 1.0);
         query.require(0.75 * static_cast<double>(memory), 1.0);
         EXPECT_THROW(query.require(0.25 * static_cast<double>(memory), 1.0), StatusException);
     }
 }
 
-TEST(MemoryBudget, TheLargestQueryDecidesHowManyJobsHaveRoom) {
+TEST(MemoryBudget, PointsAreEstimatedRoughlyUnlessTheyAreCountedClosely) {
     const PlanLimits limits = limits_with(1U << 28U);
-    const auto jobs_after = [&](double first, double second) {
-        MemoryBudget budget(limits, false);
-        EXPECT_TRUE(QueryMemory(budget, 0, 1.0).fits_roughly(first, 0.0));
-        EXPECT_TRUE(QueryMemory(budget, 1, 1.0).fits_roughly(second, 0.0));
-        return budget.jobs_with_room();
-    };
-    EXPECT_EQ(jobs_after(50'000.0, 1.0), jobs_after(1.0, 50'000.0));
-    EXPECT_LT(jobs_after(50'000.0, 1.0), jobs_after(1.0, 1.0));
-}
-
-TEST(MemoryBudget, RecordsAreEstimatedRoughlyUnlessTheyAreCountedClosely) {
-    const PlanLimits limits = limits_with(1U << 28U);
-    MemoryBudget roughly(limits, false);
-    QueryMemory query(roughly, 0, 1.0);
-    EXPECT_TRUE(query.fits_roughly(1000.0, 1e9));
+    MemoryBudget roughly(limits);
+    EXPECT_TRUE(QueryMemory(roughly, 0, 1.0).fits_roughly(1e9));
     EXPECT_EQ(roughly.result_bytes(), 1e9);
     EXPECT_TRUE(roughly.is_exceeded());
     MemoryBudget closely(limits, true);
     QueryMemory again(closely, 0, 1.0);
-    EXPECT_FALSE(again.fits_roughly(1000.0, 1e9));
-    EXPECT_TRUE(again.fits_roughly(1000.0, 0.0)) << "without records there is nothing to count";
-    EXPECT_TRUE(again.fits(10.0, 1e7));
+    EXPECT_FALSE(again.fits_roughly(1e9));
+    EXPECT_TRUE(again.fits_roughly(0.0)) << "without points there is nothing to count";
+    again.require(1e7, 1.0);
     EXPECT_EQ(closely.result_bytes(), 1e7);
     EXPECT_FALSE(closely.is_exceeded());
-    EXPECT_THROW(static_cast<void>(again.fits(1000.0, 1e9)), StatusException);
+    EXPECT_THROW(again.require(1e9, 1.0), StatusException);
+}
+
+TEST(MemoryBudget, PointsOfAQueryAreCountedCloselyOnlyIfTheyAreMany) {
+    MemoryBudget budget(limits_with(1U << 28U));
+    QueryMemory query(budget, 3, 0.5);
+    const auto never = []() -> double {
+        ADD_FAILURE() << "counted";
+        return 0.0;
+    };
+    query.require_alone(100.0, 1e6, never);
+    query.require_alone(0.0, 1e9, never);
+    query.require_alone(100.0, 1e9, [] { return 1e6; });
+    EXPECT_THROW(query.require_alone(100.0, 1e9, [] { return 1e8; }), StatusException);
+    EXPECT_EQ(budget.result_bytes(), 0.0) << "nothing is added";
+    try {
+        query.require_alone(0.0, 1e12, [] { return 1e11; });
+        ADD_FAILURE() << "nothing thrown";
+    } catch (const StatusException& failure) {
+        const std::string message = failure.status().message();
+        const auto at = message.find("about ");
+        ASSERT_NE(at, std::string::npos) << message;
+        EXPECT_NEAR(std::stod(message.substr(at + 6)), 1.05 * 0.5 * 1e11 / std::ldexp(1.0, 30),
+                    1.0);
+    }
 }
 
 TEST(MemoryBudget, WhoNeedsTooMuchIsToldTheToleranceThatFits) {
     const PlanLimits limits = limits_with(1U << 28U);
     const double room = 0.75 * std::ldexp(1.0, 28);
     for (const double growth : {1.0, 2.0}) {
-        MemoryBudget budget(limits, false);
+        MemoryBudget budget(limits);
         QueryMemory query(budget, 7, 0.5);
         try {
             query.require(room * 16.0, growth);
@@ -80,7 +91,7 @@ TEST(MemoryBudget, WhoNeedsTooMuchIsToldTheToleranceThatFits) {
         }
     }
     // Several queries that fit one by one.
-    MemoryBudget budget(limits, false);
+    MemoryBudget budget(limits);
     QueryMemory(budget, 0, 0.5).require(0.9 * room, 2.0);
     try {
         QueryMemory(budget, 1, 0.5).require(0.9 * room, 2.0);

@@ -2,6 +2,7 @@
 #include <engine/plan/planner.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/checked_queries.hpp>
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
@@ -37,7 +38,8 @@ protected:
                 return handle.index == 0 ? &a_ : handle.index == 1 ? &b_ : nullptr;
             },
             shapes);
-        Planner(limits_).plan(queries_, shapes, plan_, results_);
+        checked_ = test::checked_queries(queries_, shapes, limits_, results_);
+        Planner(limits_).plan(checked_, plan_, results_);
     }
 
     Polygon a_;
@@ -45,6 +47,7 @@ protected:
     PlanLimits limits_;
     PenetrationQuery penetration_;
     std::vector<AnyQuery> queries_;
+    std::vector<CheckedQuery> checked_;
     Plan plan_;
     std::vector<AnyResult> results_;
 };
@@ -69,21 +72,6 @@ TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
         ASSERT_TRUE(
             tile.needed.any(block(local.x(), tile.width), block(local.y(), tile.height), 1));
     }
-}
-
-TEST_F(PlannerTest, TheGridOfTheDeviceDecidesNothingThatTheCpuAnswers) {
-    IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 0.01};
-    const auto cell_of = [&](Technique technique, double steps) {
-        query.technique = technique;
-        limits_.subpixel = {steps};
-        run({query});
-        const auto& result = std::get<IntersectionResult>(results_.front());
-        EXPECT_TRUE(result.status.ok()) << result.status.text();
-        return result.cell;
-    };
-    EXPECT_EQ(cell_of(Technique::cpu, 16.0), cell_of(Technique::cpu, 4096.0));
-    EXPECT_EQ(cell_of(Technique::cpu, 16.0), cell_of(Technique::raster, 256.0));
-    EXPECT_LT(cell_of(Technique::raster, 16.0), cell_of(Technique::raster, 256.0));
 }
 
 TEST_F(PlannerTest, AFieldsTilesCoverItsGridOnce) {
@@ -140,87 +128,6 @@ TEST_F(PlannerTest, MemoryIsCountedOverTheWholeBatch) {
     ASSERT_GT(one, 0.0);
     const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / one) + 1;
     EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), StatusException);
-}
-
-TEST_F(PlannerTest, ContactsThatMayTakeTooMuchAreCountedClosely) {
-    ContactQuery query;
-    query.technique = Technique::raster;
-    query.a = penetration_.a;
-    query.b = {{1, 0}, {{10.5, 0.0}, 0.0}};
-    query.tolerance = 0.01;
-    query.contact_distance = 0.6;
-    query.technique = Technique::cpu;
-    run({query});
-    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
-    const double roughly = plan_.result_bytes;
-    ASSERT_GT(roughly, 0.0);
-    const double most = static_cast<double>(limits_.memory);
-    const auto many = static_cast<std::size_t>(most / roughly) + 1;
-    query.contact_distance = 0.01;
-    run(std::vector<AnyQuery>(many, query));
-    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
-    EXPECT_EQ(plan_.result_bytes, 0.0);
-    query.contact_distance = 30.0;
-    EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), StatusException);
-    run({query});
-    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
-}
-
-TEST_F(PlannerTest, RecordsThatMayTakeTooMuchAreCountedClosely) {
-    PenetrationQuery query = penetration_;
-    query.b.pose.translation = {1000.0, 0.0};
-    query.tolerance = 0.01;
-    query.technique = Technique::cpu;
-    run({query});
-    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
-    const double roughly = plan_.result_bytes;
-    ASSERT_GT(roughly, 0.0);
-    const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / roughly) + 1;
-    run(std::vector<AnyQuery>(many, query));
-    EXPECT_EQ(plan_.result_bytes, 0.0);
-    query.b.pose = {{1.0, 1.0}, 0.0};
-    run(std::vector<AnyQuery>(many / 2, query));
-    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
-    EXPECT_THROW(run(std::vector<AnyQuery>(4 * many, query)), StatusException);
-    query.summary_only = true;
-    run(std::vector<AnyQuery>(4 * many, query));
-    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
-    EXPECT_EQ(plan_.result_bytes, 0.0);
-}
-
-TEST_F(PlannerTest, AsManyJobsAnswerAsThereIsRoomFor) {
-    penetration_.technique = Technique::cpu;
-    penetration_.tolerance = 1.0;
-    run({penetration_});
-    EXPECT_GT(plan_.max_jobs, 100U);
-    penetration_.tolerance = 0.001;
-    penetration_.summary_only = true;
-    run({penetration_});
-    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
-    EXPECT_GE(plan_.max_jobs, 1U);
-    EXPECT_LT(plan_.max_jobs, 4U);
-}
-
-TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
-    ContactQuery query;
-    query.technique = Technique::raster;
-    query.a = penetration_.a;
-    query.b = penetration_.b;
-    query.tolerance = 0.01;
-    query.contact_distance = 0.02;
-    const auto brute_force = [&] {
-        run({query});
-        return plan_.queries[0].has_points_of(PointSource::brute_force);
-    };
-    query.technique = Technique::raster;
-    EXPECT_FALSE(brute_force());
-    query.technique = Technique::cpu;
-    EXPECT_TRUE(brute_force());
-    query.normals = ContactNormals::gradient;
-    EXPECT_FALSE(brute_force());
-    query.normals = ContactNormals::analytic;
-    query.tolerance = 1e-4;  // 280,000 samples per boundary
-    EXPECT_FALSE(brute_force());
 }
 
 TEST_F(PlannerTest, LimitsAreToldInUnitsInWhichTheyAreNotZero) {
@@ -323,21 +230,6 @@ TEST_F(PlannerTest, TheDeviceSearchesWhatFitsOnceItIsCountedClosely) {
     run(std::vector<AnyQuery>(4 * many, penetration_));
     EXPECT_EQ(plan_.searched.size(), 4 * many);
     EXPECT_EQ(plan_.result_bytes, 0.0);
-}
-
-TEST_F(PlannerTest, TheCpuHasWhatTheDeviceDoesNotSearch) {
-    limits_.memory = std::uint64_t{1} << 34U;
-    penetration_.technique = Technique::compute;
-    penetration_.tolerance = 1e-5;  // more than 2^21 samples
-    const SeparationQuery separation{penetration_.a, penetration_.b, 0.01, Technique::compute};
-    run({penetration_, separation});
-    EXPECT_TRUE(plan_.searched.empty());
-    EXPECT_TRUE(plan_.tiles.empty());
-    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
-    for (const PlannedQuery& planned : plan_.queries) {
-        EXPECT_EQ(planned.technique, Technique::cpu);
-    }
-    EXPECT_EQ(std::get<PenetrationResult>(results_[0]).technique, Technique::compute);
 }
 
 TEST_F(PlannerTest, ShapesFarApartPlanNothing) {

@@ -2,6 +2,7 @@
 #include <engine/plan/tile_batch.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/checked_queries.hpp>
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ protected:
         Planner planner(limits);
         Plan plan;
         std::vector<AnyResult> results;
-        planner.plan(queries, shapes, plan, results);
+        planner.plan(test::checked_queries(queries, shapes, limits, results), plan, results);
         for (const AnyResult& result : results) {
             const Status status = std::visit([](const auto& one) { return one.status; }, result);
             EXPECT_TRUE(status.ok()) << status.text();

@@ -1,0 +1,50 @@
+#include <engine/localize/hierarchy.hpp>
+#include <engine/readback/contacts.hpp>
+
+namespace nearfield::readback {
+namespace {
+
+using plan::PlannedQuery;
+
+/// Calls `use(place, resolved point)` for each point within a given distance of B.
+template <class Use>
+void for_each_near(const ContactDecoder::Direction& direction, double distance,
+                   PointResolver& resolver, const Use& use) {
+    resolver.begin(direction.query, direction.points);
+    resolver.for_each([](std::uint32_t word) { return (word & plan::point_resolved) != 0; },
+                      [&](std::uint32_t i, const records::ResolvedPoint& resolved) {
+                          if (resolved.distance <= distance) {
+                              use(resolver.place(i), resolved);
+                          }
+                      });
+}
+
+}  // namespace
+
+void ContactDecoder::find(const Direction& of_a, const Direction& of_b, double cell,
+                          records::FoundContacts& found) {
+    if (of_a.points.empty() && of_b.points.empty()) {
+        found.begin(cell, 0.0);
+        return;
+    }
+    const PlannedQuery& query = of_a.query;
+    const geometry::TransformedPolygon a(*query.a, query.pose_a);
+    const geometry::TransformedPolygon b(*query.b, query.pose_b);
+    found.begin(
+        cell, localize::placement_rounding(a, a.box()) + localize::placement_rounding(b, b.box()));
+    const double near = std::get<ContactQuery>(*query.query).contact_distance;
+    const auto boundary_of_b = [this]() -> narrowphase::Boundary& {
+        return a_in_b_.boundary_of_b();
+    };
+    for_each_near(of_a, near, a_in_b_,
+                  [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
+                      found.add_of_a(place, resolved, boundary_of_b);
+                  });
+    for_each_near(of_b, near, b_in_a_,
+                  [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
+                      found.add_of_b(place, resolved, boundary_of_b());
+                  });
+    found.decide_normals(boundary_of_b);
+}
+
+}  // namespace nearfield::readback

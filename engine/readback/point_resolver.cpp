@@ -1,0 +1,175 @@
+#include <engine/base/interruption.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/plan/asked_points.hpp>
+#include <engine/plan/error_budget.hpp>
+#include <engine/plan/point_search.hpp>
+#include <engine/readback/point_resolver.hpp>
+#include <engine/records/nearest_feature.hpp>
+
+#include <shaders/search.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace nearfield::readback {
+
+using geometry::Vector;
+
+namespace {
+
+/// Beyond this many cells, single precision cannot resolve a thousandth of d: the nearest edge is
+/// determined again, in double precision.
+constexpr double farthest_in_single_precision = 1024.0;
+
+}  // namespace
+
+/// The points that the device has found, as if they had been planned.
+void PointResolver::take(std::span<const plan::FoundPointData> found) {
+    places_of_found_.resize(found.size());
+    words_of_found_.resize(found.size());
+    plan::FoundPlaces place_of(*query_);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        places_of_found_[i] = {place_of(found[i]), plan::PlannedPoint::no_tile};
+        words_of_found_[i] = found[i].word;
+    }
+    places_ = places_of_found_;
+    words_ = words_of_found_;
+}
+
+void PointResolver::begin(const plan::PlannedQuery& query, const QueryPoints& points) {
+    query_ = &query;
+    places_ = points.points;
+    words_ = points.words;
+    tiles_ = points.tiles;
+    if (!points.found.empty()) {
+        take(points.found);
+    }
+    a_ = recent_.place(*query.a, query.pose_a);
+    positions_.emplace(*a_);
+    b_ = recent_.place(*query.b, query.pose_b);
+    boundary_is_set_ = false;
+    points_.clear();
+    next_ = 0;
+    block_.begin(*b_);
+    const bool by_search = query.points().source == plan::PointSource::device;
+    has_close_neighbours_ = query.points().margin > plan::search_precision * query.budget.cell;
+    farthest_ = by_search || has_close_neighbours_
+                    ? std::numeric_limits<double>::infinity()
+                    : farthest_in_single_precision * query.budget.cell;
+    touching_.reset();
+    if (by_search) {
+        touching_ = records::touching_distance(query.budget.cell, 0);
+    }
+}
+
+narrowphase::Boundary& PointResolver::boundary_of_b() {
+    if (!boundary_is_set_) {
+        instances_.clear();
+        const std::uint32_t index = instances_.place(*b_);
+        instances_.complete(index);
+        boundary_.set(instances_[index]);
+        boundary_is_set_ = true;
+    }
+    return boundary_;
+}
+
+/// Locates the points in doubt from an index on, as many as are located at once.
+void PointResolver::locate_doubtful(std::uint32_t first) {
+    static_cast<void>(boundary_of_b());
+    const simd::TransformedEdges& b = instances_[0];
+    const auto end = static_cast<std::uint32_t>(places_.size());
+    const std::size_t at_once = narrowphase::points_at_once(b.count);
+    points_.clear();
+    next_ = 0;
+    SparseCheckpoint<256> checkpoint;
+    for (std::uint32_t i = first; i < end && points_.size() < at_once; ++i) {
+        checkpoint.step();
+        if ((words_[i] & plan::point_doubtful) != 0) {
+            const Vector point = position(*a_, places_[i].point);
+            points_.reserve(points_.size() + 1);
+            points_.push(point.x(), point.y());
+        }
+    }
+    located_.find(points_.arrays(), b,
+                  {.margin = query_->budget.cell / std::numbers::sqrt2 * plan::uniqueness_margin,
+                   .touching = localize::placement_rounding(*a_, a_->box()) + b.rounding,
+                   .reach = plan::reach_of(*query_)});
+}
+
+/// Finds the nearest points, sides and what else the words of the block's points tell.
+void PointResolver::resolve_block() {
+    block_.find(has_close_neighbours_);
+    for (std::uint32_t i = 0; i < block_.size(); ++i) {
+        sides_[i] = words_[block_.index(i)];
+        if ((sides_[i] & plan::point_doubtful) != 0) {
+            sides_[i] = resolve_doubtful(i);
+        } else if (block_.distance(i) > farthest_) {
+            sides_[i] = resolve_far(i);
+        }
+    }
+}
+
+/// A point of the block that the device left in doubt. Returns its word.
+std::uint32_t PointResolver::resolve_doubtful(std::uint32_t i) {
+    if (next_ == points_.size()) {
+        locate_doubtful(block_.index(i));
+    }
+    const std::uint32_t place = next_++;
+    const std::uint32_t edge = located_.nearest().edge[place];
+    block_.set(i, {edge, records::nearest_on_edge(*b_, edge, block_.point(i))});
+    const bool is_near = located_.nearest().distance[place] <= plan::reach_of(*query_);
+    return (is_near && located_.is_inside(place) ? plan::point_inside : 0U) |
+           (located_.is_unique(place) ? plan::point_unique : 0U);
+}
+
+/// A point of the block whose nearest edge single precision may not have found. Returns its word.
+std::uint32_t PointResolver::resolve_far(std::uint32_t i) {
+    const Vector point = block_.point(i);
+    const double margin = query_->budget.cell / std::numbers::sqrt2 * plan::uniqueness_margin;
+    const narrowphase::NearestPoint nearest = boundary_of_b().nearest(point);
+    block_.set(i, nearest);
+    const bool is_unique = boundary_of_b().is_unique(point, nearest, margin);
+    return (sides_[i] & plan::point_inside) | (is_unique ? plan::point_unique : 0U);
+}
+
+std::size_t PointResolver::list_penetrations(double tolerance,
+                                             std::vector<PenetratingPoint>& records) {
+    records.resize(places_.size());
+    std::size_t count = 0;
+    std::size_t deepest = 0;
+    double depth = 0.0;
+    for_each_penetration(tolerance, [&](const records::ResolvedPoint& resolved) {
+        write(resolved, records[count]);
+        if (resolved.distance > depth) {
+            depth = resolved.distance;
+            deepest = count;
+        }
+        ++count;
+    });
+    records.resize(count);
+    return deepest;
+}
+
+PenetrationSummary PointResolver::summarize_penetration(double tolerance) {
+    PenetrationSummary summary;
+    for_each_penetration(tolerance, [&](const records::ResolvedPoint& resolved) {
+        if (resolved.distance > summary.deepest.depth) {
+            write(resolved, summary.deepest);
+        }
+        ++summary.count;
+    });
+    return summary;
+}
+
+PenetrationSummary PointResolver::summarize_penetration(const plan::PlannedQuery& query,
+                                                        const plan::PairRowData& row,
+                                                        double tolerance) {
+    const plan::FoundPointData deepest{0, row.edge, row.number, row.word};
+    begin(query, {.found = {&deepest, 1}});
+    PenetrationSummary summary = summarize_penetration(tolerance);
+    summary.count = row.count & plan::row_count_mask;
+    return summary;
+}
+
+}  // namespace nearfield::readback

@@ -1,0 +1,185 @@
+#include <engine/base/interruption.hpp>
+#include <engine/localize/overlap.hpp>
+#include <engine/plan/empty_result.hpp>
+#include <engine/plan/query_timer.hpp>
+#include <engine/readback/result_writer.hpp>
+#include <engine/solvers/placed_pair.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nearfield::readback {
+namespace {
+
+using geometry::TransformedPolygon;
+using plan::PlannedQuery;
+
+/// The least distance at the rendered points of one direction.
+double sampled_distance(const plan::Plan& plan, const PlannedQuery& query,
+                        const DeviceAnswers& answers) {
+    const TransformedPolygon a(*query.a, query.pose_a);
+    const TransformedPolygon b(*query.b, query.pose_b);
+    double squared = std::numeric_limits<double>::infinity();
+    SparseCheckpoint<256> checkpoint;
+    const plan::PlannedPoints& points = query.points();
+    const std::span<const std::uint32_t> words = answers.words_of(points);
+    for (std::uint32_t i = 0; i < points.count; ++i) {
+        checkpoint.step();
+        if ((words[i] & plan::point_resolved) != 0) {
+            const std::uint32_t edge = words[i] & plan::point_edge_mask;
+            const auto nearest =
+                geometry::nearest_on_segment(position(a, plan.points[points.first + i].point),
+                                             b.vertex(edge), b.vertex(b.polygon().next(edge)));
+            squared = std::min(squared, nearest.squared_distance);
+        }
+    }
+    return std::sqrt(squared);
+}
+
+void take_summary(const PenetrationSummary& summary, PenetrationResult& result) {
+    result.count = summary.count;
+    result.deepest = summary.deepest;
+}
+
+}  // namespace
+
+/// Adds the effort to the result's statistics if the test uses hierarchies.
+bool ResultWriter::shapes_intersect(const Input& input, ResultSummary& result) {
+    const PlannedQuery& query = input.planned;
+    if (query.has_points_of(plan::PointSource::device)) {
+        return solvers::intersect(query, instances_, overlap_test_);
+    }
+    localize::Effort effort;
+    const bool answer = localize::intersects(TransformedPolygon(*query.a, query.pose_a),
+                                             TransformedPolygon(*query.b, query.pose_b),
+                                             input.plan.bounding_volume, &effort);
+    result.localization.nodes_evaluated += effort.nodes_evaluated;
+    result.localization.pairs_rejected += effort.pairs_rejected;
+    return answer;
+}
+
+void ResultWriter::write(const Input& input, PenetrationResult& result) {
+    const PlannedQuery& planned = input.planned;
+    if (planned.has_points_of(plan::PointSource::device)) {
+        write_searched(input, result);
+        return;
+    }
+    resolver_.begin(planned, input.answers.points_of(input.plan, planned.index));
+    if (!std::get<PenetrationQuery>(*planned.query).summary_only) {
+        list_penetrations(result);
+    } else {
+        take_summary(resolver_.summarize_penetration(result.tolerance), result);
+    }
+    result.intersects = result.count > 0 || shapes_intersect(input, result);
+}
+
+/// Of the resolver's points.
+void ResultWriter::list_penetrations(PenetrationResult& result) {
+    const std::size_t deepest = resolver_.list_penetrations(result.tolerance, result.points);
+    result.count = static_cast<std::uint32_t>(result.points.size());
+    if (result.count > 0) {
+        result.deepest = result.points[deepest];
+    }
+}
+
+/// From what the device's search has found.
+void ResultWriter::write_searched(const Input& input, PenetrationResult& result) {
+    const PlannedQuery& planned = input.planned;
+    const FoundPairs& pairs = input.answers.pairs();
+    const plan::PairRowData* const row = pairs.row(planned.index);
+    if (row != nullptr && FoundPairs::is_summary(*row)) {
+        take_summary(resolver_.summarize_penetration(planned, *row, result.tolerance), result);
+    } else if (row != nullptr) {
+        resolver_.begin(planned, pairs.points(planned.index));
+        if (planned.points().summarized) {
+            take_summary(resolver_.summarize_penetration(result.tolerance), result);
+        } else {
+            list_penetrations(result);
+        }
+    }
+    const bool is_known = searched_ != nullptr && plan::is_reverse(*searched_, planned);
+    result.intersects =
+        result.count > 0 || (is_known ? searched_intersect_ : shapes_intersect(input, result));
+    searched_ = &planned;
+    searched_intersect_ = result.intersects;
+}
+
+void ResultWriter::write(const Input& input, IntersectionResult& result) {
+    result.area = static_cast<double>(result.count) * result.cell * result.cell;
+    result.intersects = shapes_intersect(input, result);
+}
+
+void ResultWriter::write(const Input& input, DistanceFieldResult& result) {
+    result.intersects = input.planned.a != nullptr && shapes_intersect(input, result);
+    input.answers.fields().finish(input.planned, result);
+}
+
+void ResultWriter::write(const Input& input, ContactResult& result) {
+    const PlannedQuery& planned = input.planned;
+    const auto& query = std::get<ContactQuery>(*planned.query);
+    if (query.normals == ContactNormals::analytic) {
+        const std::uint32_t reverse = planned.points().reverse;
+        contact_decoder_.find(
+            {planned, input.answers.points_of(input.plan, planned.index)},
+            {input.plan.queries[reverse], input.answers.points_of(input.plan, reverse)},
+            result.cell, found_contacts_);
+        found_contacts_.write(*planned.a, *planned.b, query, result);
+    }
+    result.intersects = shapes_intersect(input, result);
+}
+
+void ResultWriter::write(const Input& input, SeparationResult& result) {
+    const PlannedQuery& planned = input.planned;
+    const solvers::PlacedPair pair = solvers::place_pair(planned, instances_);
+    solvers::complete(pair, instances_);
+    double sampled = std::numeric_limits<double>::infinity();
+    if (!result.intersects) {
+        sampled = sampled_distance(input.plan, planned, input.answers);
+        const std::uint32_t reverse = planned.points().reverse;
+        if (reverse != plan::PlannedPoints::none) {
+            sampled = std::min(
+                sampled, sampled_distance(input.plan, input.plan.queries[reverse], input.answers));
+        }
+    }
+    closest_.answer(planned, instances_[pair.a], instances_[pair.b], {result.intersects, sampled},
+                    result);
+}
+
+void ResultWriter::write(const Input& input, ClosestPointResult& result) {
+    SeparationResult separation;
+    static_cast<ResultSummary&>(separation) = std::move(static_cast<ResultSummary&>(result));
+    write(input, separation);
+    solvers::take_closest_point(std::move(separation), result);
+}
+
+void ResultWriter::write(const plan::Plan& plan, std::span<const plan::CheckedQuery> queries,
+                         DeviceAnswers& answers, std::vector<AnyResult>& results) {
+    answers.write_drawn_samples(results);
+    // Other batches may have been answered in between.
+    instances_.begin_batch();
+    searched_ = nullptr;
+    for (const plan::CheckedQuery& query : queries) {
+        const PlannedQuery& planned = plan.queries[query.index];
+        if (answers.pairs().are_left_to_cpu() && planned.has_points_of(plan::PointSource::device)) {
+            continue;
+        }
+        AnyResult& any = results[query.index];
+        const plan::QueryTimer timer(plan.times, query.index, &QueryTime::answer);
+        try {
+            std::visit(
+                [&](auto& result) {
+                    if (result.status.ok()) {
+                        checkpoint();
+                        write({plan, planned, answers}, result);
+                        finish_answers(1);
+                    }
+                },
+                any);
+        } catch (const Interrupted& interrupted) {
+            plan::cut_short(interrupted.status(), any);
+        }
+    }
+}
+
+}  // namespace nearfield::readback

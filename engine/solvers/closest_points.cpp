@@ -1,0 +1,105 @@
+#include <engine/base/interruption.hpp>
+#include <engine/records/nearest_feature.hpp>
+#include <engine/solvers/closest_points.hpp>
+#include <engine/solvers/placed_pair.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nearfield::solvers {
+namespace {
+
+using geometry::TransformedPolygon;
+using geometry::Vector;
+using plan::CheckedQuery;
+using simd::TransformedEdges;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The shapes whose closest point has to be unique.
+narrowphase::Side side_of(const CheckedQuery& query) {
+    return std::holds_alternative<SeparationQuery>(*query.query) ? narrowphase::Side::either
+                                                                 : narrowphase::Side::a;
+}
+
+void write_common_point(const Vector& point, SeparationResult& result) {
+    result.point_a = result.point_b = geometry::to_public(point);
+}
+
+/// Writes a SeparationResult for separate shapes, except its summary, the number of such pairs and
+/// the rendered samples.
+void write_pair(const TransformedPolygon& a, const TransformedPolygon& b,
+                const narrowphase::ClosestPair& pair, SeparationResult& result) {
+    result.distance = std::sqrt(pair.squared_distance);
+    result.point_a = geometry::to_public(pair.point_a);
+    result.point_b = geometry::to_public(pair.point_b);
+    result.direction = geometry::to_public((pair.point_b - pair.point_a) / result.distance);
+    result.feature_a = records::feature_at(a, pair.edge_a, pair.parameter_a);
+    result.feature_b = records::feature_at(b, pair.edge_b, pair.parameter_b);
+    result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.distance;
+}
+
+}  // namespace
+
+void ClosestSolver::answer_apart(const CheckedQuery& query, const simd::TransformedEdges& a,
+                                 const simd::TransformedEdges& b, double at_most,
+                                 SeparationResult& result) {
+    // Another closest point counts if it is farther away than the tolerance. If neither shape is
+    // that large, there is none, and such a margin may cover very many pairs.
+    const double extent = std::max(a.box.diagonal().norm(), b.box.diagonal().norm());
+    const double margin =
+        result.tolerance < extent ? result.tolerance * plan::uniqueness_margin : 0.0;
+    const narrowphase::ClosestPair closest = finder_.find(a, b, at_most, margin);
+    write_pair(a.placed, b.placed, closest, result);
+    result.unique = finder_.is_unique(closest, side_of(query), margin, result.tolerance);
+}
+
+void ClosestSolver::answer(const CheckedQuery& query, Workspace& workspace,
+                           SeparationResult& result) {
+    simd::TransformedInstances& instances = workspace.instances;
+    const PlacedPair pair = place_pair(query, instances);
+    const simd::TransformedEdges& a = instances[pair.a];
+    const simd::TransformedEdges& b = instances[pair.b];
+    if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {
+        result.status = std::move(status);
+        return;
+    }
+    complete(pair, instances);
+    answer(query, a, b, {overlap_test_.intersect(a, b), infinity}, result);
+}
+
+void ClosestSolver::answer(const CheckedQuery& query, const TransformedEdges& a,
+                           const TransformedEdges& b, const Known& known,
+                           SeparationResult& result) {
+    result.error_bound = a.rounding + b.rounding + query.deviations.a + query.deviations.b;
+    result.intersects = known.intersect;
+    if (known.intersect) {
+        write_common_point(common_point_.find(a, b), result);
+    } else {
+        answer_apart(query, a, b, known.at_most, result);
+        result.sampled_distance = known.at_most < infinity ? known.at_most : result.distance;
+    }
+}
+
+void ClosestSolver::answer(const CheckedQuery& query, Workspace& workspace,
+                           ClosestPointResult& result) {
+    SeparationResult separation;
+    static_cast<ResultSummary&>(separation) = std::move(static_cast<ResultSummary&>(result));
+    answer(query, workspace, separation);
+    take_closest_point(std::move(separation), result);
+}
+
+void take_closest_point(SeparationResult&& separation, ClosestPointResult& result) {
+    static_cast<ResultSummary&>(result) = std::move(static_cast<ResultSummary&>(separation));
+    result.point = separation.point_a;
+    result.nearest = separation.point_b;
+    result.distance = separation.distance;
+    result.direction = separation.direction;
+    result.feature_a = separation.feature_a;
+    result.feature_b = separation.feature_b;
+    result.unique = separation.unique;
+    result.sampled_distance = separation.sampled_distance;
+}
+
+}  // namespace nearfield::solvers

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <engine/narrowphase/closest_pair.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
+#include <engine/solvers/common_point.hpp>
+#include <engine/solvers/workspace.hpp>
+#include <nearfield/result.hpp>
+
+namespace nearfield::solvers {
+
+/// Answers closest points and separations, by an exact search for the closest pair.
+class ClosestSolver {
+public:
+    void answer(const plan::CheckedQuery& query, Workspace& workspace, ClosestPointResult& result);
+    void answer(const plan::CheckedQuery& query, Workspace& workspace, SeparationResult& result);
+
+    /// What is known before the search.
+    struct Known {
+        bool intersect = false;
+        double at_most = 0.0;  ///< an upper bound on the distance of shapes that do not
+    };
+    /// The same for complete shapes that permit the tolerance.
+    void answer(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
+                const simd::TransformedEdges& b, const Known& known, SeparationResult& result);
+
+private:
+    /// Precondition: complete, separate shapes.
+    void answer_apart(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
+                      const simd::TransformedEdges& b, double at_most, SeparationResult& result);
+
+    narrowphase::ClosestPairFinder finder_;
+    narrowphase::OverlapTest overlap_test_;
+    CommonPoint common_point_;
+};
+
+/// A's side of a separation: its closest point to B.
+void take_closest_point(SeparationResult&& separation, ClosestPointResult& result);
+
+}  // namespace nearfield::solvers

@@ -1,0 +1,135 @@
+#include <engine/base/interruption.hpp>
+#include <engine/plan/boundary_points.hpp>
+#include <engine/plan/error_budget.hpp>
+#include <engine/plan/region.hpp>
+#include <engine/records/nearest_feature.hpp>
+#include <engine/solvers/contacts.hpp>
+#include <engine/solvers/placed_pair.hpp>
+
+#include <utility>
+
+namespace nearfield::solvers {
+
+using geometry::Box;
+using geometry::Vector;
+
+void ContactSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
+                           ContactResult& result) {
+    simd::TransformedInstances& instances = workspace.instances;
+    const PlacedPair pair = place_pair(query, instances);
+    const simd::TransformedEdges& a = instances[pair.a];
+    const simd::TransformedEdges& b = instances[pair.b];
+    if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {
+        result.status = std::move(status);
+        return;
+    }
+    const auto& asked = std::get<ContactQuery>(*query.query);
+    const double near = asked.contact_distance;
+    const Box of_a = a.box.intersection(geometry::grown(b.box, near));
+    const Box of_b = b.box.intersection(geometry::grown(a.box, near));
+    if (of_a.isEmpty() || of_b.isEmpty()) {
+        complete_if_near(pair, instances);
+        result.intersects = overlap_test_.intersect(a, b);
+        return;
+    }
+    complete(pair, instances);
+    result.regions.push_back(plan::region_of(plan::Grid::covering(of_a.merged(of_b), result.cell)));
+    plan::QueryMemory memory = workspace.memory_of(query, result.tolerance);
+    require_room(query, a, b, memory);
+    find(a, b, near, result);
+    if (asked.normals == ContactNormals::gradient) {
+        take_gradients(query, workspace, result);
+    }
+    if (!result.status.ok()) {
+        return;
+    }
+    found_.write(*query.a, *query.b, asked, result);
+    if (!result.points.empty()) {
+        memory.require(static_cast<double>(result.points.size() * sizeof(ContactPoint)), 1.0);
+    }
+    result.intersects = result.intersects || overlap_test_.intersect(a, b);
+}
+
+void ContactSolver::require_room(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
+                                 const simd::TransformedEdges& b, plan::QueryMemory& memory) {
+    const auto& asked = std::get<ContactQuery>(*query.query);
+    // All contacts are kept until the manifold is made.
+    const double kept =
+        sizeof(records::TransformedContact) + (!asked.summary_only ? sizeof(ContactPoint) : 0.0);
+    const double cell = query.budget.cell;
+    const double rough = plan::max_samples(*query.a, cell) + plan::max_samples(*query.b, cell);
+    memory.require_alone(kept, rough, [&] {
+        return samples_.max_samples(a, b, asked.contact_distance, cell) +
+               samples_.max_samples(b, a, asked.contact_distance, cell);
+    });
+}
+
+void ContactSolver::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                         double contact_distance, ContactResult& result) {
+    found_.begin(result.cell, a.rounding + b.rounding);
+    boundary_.set(b);
+    const auto boundary_of_b = [this]() -> narrowphase::Boundary& { return boundary_; };
+    for_each_contact(a, b, contact_distance, result,
+                     [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
+                         result.intersects = result.intersects || resolved.inside;
+                         found_.add_of_a(place, resolved, boundary_of_b);
+                     });
+    for_each_contact(b, a, contact_distance, result,
+                     [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
+                         result.intersects = result.intersects || resolved.inside;
+                         found_.add_of_b(place, resolved, boundary_);
+                     });
+    found_.decide_normals(boundary_of_b);
+}
+
+template <class Use>
+void ContactSolver::for_each_contact(const simd::TransformedEdges& a,
+                                     const simd::TransformedEdges& b, double contact_distance,
+                                     const ContactResult& result, const Use& use) {
+    samples_.find(a, b, contact_distance, result.cell, [&] {
+        const simd::PointArrays points = samples_.points().arrays();
+        located_.find(points, b,
+                      {.margin = result.tolerance * plan::uniqueness_margin,
+                       .touching = a.rounding + b.rounding,
+                       .reach = contact_distance});
+        const simd::NearestArrays& nearest = located_.nearest();
+        SparseCheckpoint<64> checkpoint;
+        for (std::size_t i = 0; i < points.count; ++i) {
+            checkpoint.step();
+            if (nearest.distance[i] > contact_distance) {
+                continue;
+            }
+            use(samples_.place(i),
+                records::ResolvedPoint{
+                    {points.x[i], points.y[i]},
+                    {nearest.x[i], nearest.y[i]},
+                    nearest.distance[i],
+                    nearest.edge[i],
+                    nearest.parameter[i],
+                    records::feature_at(b.placed, nearest.edge[i], nearest.parameter[i]),
+                    located_.is_inside(i),
+                    located_.is_unique(i)});
+        }
+    });
+}
+
+void ContactSolver::take_gradients(const plan::CheckedQuery& query, Workspace& workspace,
+                                   ContactResult& result) {
+    const auto& asked = std::get<ContactQuery>(*query.query);
+    const std::span<const AnyQuery> fields =
+        normals_.fields_around(found_, asked, Technique::cpu, result.cell);
+    field_results_.resize(fields.size());
+    for (std::uint32_t i = 0; i < fields.size(); ++i) {
+        plan::CheckedQuery field;
+        const plan::QueryShapes shapes{nullptr, query.b};
+        if (plan::check(i, fields[i], shapes, workspace.limits, plan::Submissions::any, field,
+                        field_results_[i])) {
+            // The points are needed for no longer than the contacts.
+            plan::MemoryBudget own(workspace.limits);
+            fields_.answer(field, workspace, own, std::get<DistanceFieldResult>(field_results_[i]));
+        }
+    }
+    result.status = normals_.set(field_results_, found_);
+}
+
+}  // namespace nearfield::solvers

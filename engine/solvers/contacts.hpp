@@ -1,0 +1,51 @@
+#pragma once
+
+#include <engine/narrowphase/boundary.hpp>
+#include <engine/narrowphase/located_points.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
+#include <engine/records/found_contacts.hpp>
+#include <engine/records/gradient_normals.hpp>
+#include <engine/solvers/field.hpp>
+#include <engine/solvers/near_samples.hpp>
+#include <engine/solvers/workspace.hpp>
+#include <nearfield/result.hpp>
+
+#include <vector>
+
+namespace nearfield::solvers {
+
+/// Answers contact queries. Tests only samples of edges that come close to each other. Reuses its
+/// memory between batches.
+class ContactSolver {
+public:
+    void answer(const plan::CheckedQuery& query, Workspace& workspace, ContactResult& result);
+
+private:
+    /// Throws StatusException (too_large) if there may be more contacts than the batch has memory
+    /// for.
+    void require_room(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
+                      const simd::TransformedEdges& b, plan::QueryMemory& memory);
+    /// Calls `use(place, resolved point)` for the samples of A's boundary that are contacts, in
+    /// order.
+    template <class Use>
+    void for_each_contact(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                          double contact_distance, const ContactResult& result, const Use& use);
+    /// Finds the contacts of both boundaries.
+    void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+              double contact_distance, ContactResult& result);
+    /// Replaces the normals of what was found by gradients of B's field; the result states the
+    /// error of a field.
+    void take_gradients(const plan::CheckedQuery& query, Workspace& workspace,
+                        ContactResult& result);
+
+    NearSamples samples_;
+    narrowphase::LocatedPoints located_;  // the samples
+    narrowphase::Boundary boundary_;      // of B
+    records::FoundContacts found_;
+    narrowphase::OverlapTest overlap_test_;
+    records::GradientNormals normals_;
+    FieldSolver fields_;  // around contacts
+    std::vector<AnyResult> field_results_;
+};
+
+}  // namespace nearfield::solvers

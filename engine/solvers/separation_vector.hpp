@@ -1,0 +1,19 @@
+#pragma once
+
+#include <engine/mtv/separating_translation.hpp>
+#include <engine/solvers/workspace.hpp>
+#include <nearfield/result.hpp>
+
+namespace nearfield::solvers {
+
+/// Answers separation-vector queries. Reuses its memory between batches.
+class SeparationVectorSolver {
+public:
+    void answer(const plan::CheckedQuery& query, Workspace& workspace,
+                SeparationVectorResult& result);
+
+private:
+    mtv::SeparatingTranslationFinder finder_;
+};
+
+}  // namespace nearfield::solvers

@@ -1,0 +1,111 @@
+#include <engine/plan/error_budget.hpp>
+#include <engine/solvers/penetration.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/unit/solvers/test_workspace.hpp>
+#include <tests/unit/support/shape_samples.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace nearfield::solvers {
+namespace {
+
+using geometry::Polygon;
+
+constexpr double d = 0.02;
+
+/// The answer for A's vertices in B, with records or the summary alone.
+PenetrationResult answer(const Polygon& a, const Polygon& b, const Pose& pose_a, bool records) {
+    PenetrationQuery query;
+    query.a.pose = pose_a;
+    query.tolerance = d;
+    query.points = PenetrationPoints::vertices;
+    query.summary_only = !records;
+    const AnyQuery asked = query;
+    plan::CheckedQuery checked;
+    checked.query = &asked;
+    checked.a = &a;
+    checked.b = &b;
+    checked.pose_a = pose_a;
+    checked.budget = plan::penetration_budget(query);
+    PenetrationResult result;
+    result.tolerance = d;
+    result.cell = checked.budget.cell;
+    TestWorkspace workspace;
+    PenetrationSolver penetration;
+    penetration.begin_batch();
+    penetration.answer(checked, workspace, result);
+    EXPECT_TRUE(result.status.ok()) << result.status.text();
+    return result;
+}
+
+/// A triangle with its tip at the origin.
+Polygon tip() {
+    return samples::polygon({{{0.0, 0.0}, {1.0, 9.0}, {-1.0, 9.0}}});
+}
+
+/// A ring with its long sides cut into many edges, so that it is or is not of few edges.
+Ring bar(double half_width, std::uint32_t pieces) {
+    Ring ring;
+    for (std::uint32_t i = 0; i <= pieces; ++i) {
+        ring.push_back({half_width, -4.0 + 8.0 * i / pieces});
+    }
+    for (std::uint32_t i = 0; i <= pieces; ++i) {
+        ring.push_back({-half_width, 4.0 - 8.0 * i / pieces});
+    }
+    return ring;
+}
+
+TEST(UniqueDeepest, WithoutRecordsOnlyATipBetweenTwoWallsHasSeveralWaysOut) {
+    const Polygon a = tip();
+    for (const std::uint32_t pieces : {1U, 3U, 40U, 400U}) {
+        SCOPED_TRACE(std::to_string(2 * pieces + 2) + " edges");
+        const Polygon b = samples::polygon({bar(1.0, pieces)});
+        for (const double across : {0.0, 0.4e-3 * d, -0.4e-3 * d}) {
+            const PenetrationResult middle = answer(a, b, {{across, 0.01}, 0.0}, false);
+            EXPECT_TRUE(middle.points.empty());
+            EXPECT_EQ(middle.count, 1U);
+            EXPECT_FALSE(middle.deepest.unique) << across;
+        }
+        for (const double across : {0.6e-3 * d, -0.3, 0.5}) {
+            const PenetrationResult aside = answer(a, b, {{across, 0.01}, 0.0}, false);
+            EXPECT_EQ(aside.count, 1U);
+            EXPECT_TRUE(aside.deepest.unique) << across;
+            EXPECT_NEAR(aside.deepest.depth, 1.0 - std::abs(across), 1e-12);
+        }
+    }
+}
+
+TEST(UniqueDeepest, WithoutRecordsItIsThatOfTheRecords) {
+    samples::Random random(611);
+    std::uint32_t unique = 0;
+    std::uint32_t several = 0;
+    for (int i = 0; i < 2000; ++i) {
+        SCOPED_TRACE("case " + std::to_string(i));
+        const bool walls = i % 2 == 0;
+        const Polygon a =
+            walls ? tip()
+                  : samples::polygon({samples::star(random, 3 + random.below(60), 0.1, 0.8)});
+        const Polygon b =
+            walls ? samples::polygon({bar(1.0, 1 + random.below(300))})
+                  : samples::polygon({samples::star(random, 3 + random.below(300), 0.4, 1.0)});
+        const Pose pose =
+            walls ? Pose{{random.between(-1e-3, 1e-3) * d, random.between(-1.0, 1.0)}, 0.0}
+                  : Pose{{random.between(-0.5, 0.5), random.between(-0.5, 0.5)}, 0.4};
+        const PenetrationResult with = answer(a, b, pose, true);
+        const PenetrationResult without = answer(a, b, pose, false);
+        ASSERT_EQ(without.count, with.count);
+        if (with.count > 0) {
+            EXPECT_NEAR(without.deepest.depth, with.deepest.depth, 1e-12);
+            EXPECT_EQ(without.deepest.position, with.deepest.position);
+            EXPECT_EQ(without.deepest.unique, with.deepest.unique);
+            ++(with.deepest.unique ? unique : several);
+        }
+    }
+    EXPECT_GT(unique, 500U);
+    EXPECT_GT(several, 200U);
+}
+
+}  // namespace
+}  // namespace nearfield::solvers
