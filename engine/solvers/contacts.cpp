@@ -35,8 +35,8 @@ void ContactSolver::answer(const plan::CheckedQuery& query, Workspace& workspace
     complete(pair, instances);
     result.regions.push_back(plan::region_of(plan::Grid::covering(of_a.merged(of_b), result.cell)));
     plan::QueryMemory memory = workspace.memory_of(query, result.tolerance);
-    require_room(query, a, b, memory);
-    find(a, b, near, result);
+    require_numbers(query, a, b, memory);
+    find(a, b, near, memory, result);
     if (asked.normals == ContactNormals::gradient) {
         take_gradients(query, workspace, result);
     }
@@ -50,31 +50,30 @@ void ContactSolver::answer(const plan::CheckedQuery& query, Workspace& workspace
     result.intersects = result.intersects || overlap_test_.intersect(a, b);
 }
 
-void ContactSolver::require_room(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
-                                 const simd::TransformedEdges& b, plan::QueryMemory& memory) {
+void ContactSolver::require_numbers(const plan::CheckedQuery& query,
+                                    const simd::TransformedEdges& a,
+                                    const simd::TransformedEdges& b, plan::QueryMemory& memory) {
     const auto& asked = std::get<ContactQuery>(*query.query);
-    // All contacts are kept until the manifold is made.
-    const double kept =
-        sizeof(records::TransformedContact) + (!asked.summary_only ? sizeof(ContactPoint) : 0.0);
     const double cell = query.budget.cell;
     const double rough = plan::max_samples(*query.a, cell) + plan::max_samples(*query.b, cell);
-    memory.require_alone(kept, rough, [&] {
+    memory.require_alone(0.0, rough, [&] {
         return samples_.max_samples(a, b, asked.contact_distance, cell) +
                samples_.max_samples(b, a, asked.contact_distance, cell);
     });
 }
 
 void ContactSolver::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-                         double contact_distance, ContactResult& result) {
+                         double contact_distance, plan::QueryMemory& memory,
+                         ContactResult& result) {
     found_.begin(result.cell, a.rounding + b.rounding);
     boundary_.set(b);
     const auto boundary_of_b = [this]() -> narrowphase::Boundary& { return boundary_; };
-    for_each_contact(a, b, contact_distance, result,
+    for_each_contact(a, b, contact_distance, memory, result,
                      [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
                          result.intersects = result.intersects || resolved.inside;
                          found_.add_of_a(place, resolved, boundary_of_b);
                      });
-    for_each_contact(b, a, contact_distance, result,
+    for_each_contact(b, a, contact_distance, memory, result,
                      [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
                          result.intersects = result.intersects || resolved.inside;
                          found_.add_of_b(place, resolved, boundary_);
@@ -85,7 +84,8 @@ void ContactSolver::find(const simd::TransformedEdges& a, const simd::Transforme
 template <class Use>
 void ContactSolver::for_each_contact(const simd::TransformedEdges& a,
                                      const simd::TransformedEdges& b, double contact_distance,
-                                     const ContactResult& result, const Use& use) {
+                                     plan::QueryMemory& memory, const ContactResult& result,
+                                     const Use& use) {
     samples_.find(a, b, contact_distance, result.cell, [&] {
         const simd::PointArrays points = samples_.points().arrays();
         located_.find(points, b,
@@ -110,6 +110,10 @@ void ContactSolver::for_each_contact(const simd::TransformedEdges& a,
                     located_.is_inside(i),
                     located_.is_unique(i)});
         }
+        // All contacts are kept until the manifold is made.
+        constexpr double kept = sizeof(records::TransformedContact) + sizeof(ContactPoint);
+        const double found = found_.count();
+        memory.require_alone(kept, found, [found] { return found; });
     });
 }
 

@@ -21,18 +21,18 @@ public:
     void answer(const plan::CheckedQuery& query, Workspace& workspace, ContactResult& result);
 
 private:
-    /// Throws StatusException (too_large) if there may be more contacts than the batch has memory
-    /// for.
-    void require_room(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
-                      const simd::TransformedEdges& b, plan::QueryMemory& memory);
+    /// Throws StatusException (too_large) if there are more samples than can be numbered.
+    void require_numbers(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
+                         const simd::TransformedEdges& b, plan::QueryMemory& memory);
     /// Calls `use(place, resolved point)` for the samples of A's boundary that are contacts, in
-    /// order.
+    /// order. Throws StatusException (too_large) if the batch has no memory for those found.
     template <class Use>
     void for_each_contact(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-                          double contact_distance, const ContactResult& result, const Use& use);
+                          double contact_distance, plan::QueryMemory& memory,
+                          const ContactResult& result, const Use& use);
     /// Finds the contacts of both boundaries.
     void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-              double contact_distance, ContactResult& result);
+              double contact_distance, plan::QueryMemory& memory, ContactResult& result);
     /// Replaces the normals of what was found by gradients of B's field; the result states the
     /// error of a field.
     void take_gradients(const plan::CheckedQuery& query, Workspace& workspace,

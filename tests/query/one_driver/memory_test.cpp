@@ -72,7 +72,7 @@ TEST_F(MemoryLimit, IsForContactsAndNotForSamples) {
         const Pair pair = finely_sampled(random);
         const PlacedPair much(context(), pair, Technique::cpu);
         const PlacedPair scarce(little, pair, Technique::cpu);
-        const double near = 1000.0 * much.tolerance();
+        const double near = 10000.0 * much.tolerance();
         const ContactResult all = run_alone(context(), much.contacts(near));
         ContactResult result;
         const Status refused = run(little, scarce.contacts(near), result);
