@@ -11,17 +11,13 @@ Collect::Collect(const gpu::Device& device, const ComputeLayout& layout)
     : numbers_(device, layout, shaders::collect_comp, "nearfield collect numbers"),
       colors_(device, layout, shaders::collect_colors_comp, "nearfield collect colours") {}
 
-void Collect::declare(TileGraph& graph, graph::Handle input, graph::Handle hits, Output& output,
-                      IntersectionStrategy strategy) const {
-    // The shader has the binding of kept hits even where no tile keeps them.
-    graph::Handle unwritten = output.kept_hits == graph::Handle{} ? input : graph::Handle{};
+void Collect::declare(TileGraph& graph, graph::Handle input, graph::Handle hits,
+                      graph::Handle& samples, IntersectionStrategy strategy) const {
     add_pass(graph, "collect", strategy == IntersectionStrategy::blend ? colors_ : numbers_,
              {{0, input, read, input_parts::tiles},
-              {1, unwritten, read, input_parts::edges},
               {4, hits, Access::sampled_in_compute},
-              {2, output.samples, write, sample_parts::summaries},
-              {3, output.samples, write, sample_parts::samples},
-              {1, output.kept_hits, write}},
+              {2, samples, write, sample_parts::summaries},
+              {3, samples, write, sample_parts::samples}},
              [strategy](const ComputeShader& shader, VkCommandBuffer commands,
                         const RecordContext& context) {
                  shader.dispatch_groups<plan::CollectPush>(

@@ -1,5 +1,6 @@
 #include <engine/graph/access.hpp>
 #include <passes/exports.hpp>
+#include <passes/search_shaders.hpp>
 
 #include <shaders/export_field_comp.hpp>
 #include <shaders/export_headers_comp.hpp>
@@ -37,41 +38,27 @@ void dispatch_parts(const ComputeShader& shader, const graph::PassCommands& comm
     }
 }
 
-void dispatch_runs(const ComputeShader& shader, const graph::PassCommands& commands,
-                   const ExportRecords::Input& input, std::uint32_t step) {
-    for (std::size_t i = 0; i < input.runs.size(); ++i) {
-        const plan::PointRunOutput& run = input.runs[i];
-        shader.bind_set(commands, commands.set_of(input.resources[i]));
-        const plan::ExportRecordsPush push{step,
-                                           run.first_block,
-                                           run.blocks(),
-                                           run.count,
-                                           run.first,
-                                           input.details[i],
-                                           run.table,
-                                           run.rings.first_word,
-                                           run.rings.count,
-                                           run.flags,
-                                           static_cast<float>(input.records->cell),
-                                           input.records->near,
-                                           input.records->capacity};
-        shader.push(commands, push);
-        shader.dispatch_threads(commands, run.blocks());
-    }
+/// `threads` threads of a step.
+void dispatch_records(const ComputeShader& shader, VkCommandBuffer commands,
+                      const ExportRecords::Input& input, std::uint32_t step,
+                      std::uint32_t threads) {
+    plan::SearchPush push = input.push;
+    push.stage = step;
+    shader.push(commands, push);
+    shader.dispatch_threads(commands, threads);
 }
 
 // The sets of the first pass: its shader finds either at the same binding.
 constexpr std::uint32_t with_summaries = 0;
-constexpr std::uint32_t with_hits = 1;
+constexpr std::uint32_t with_masks = 1;
 
 /// Dispatches `threads` threads. `table`, `first_tile`, `tile_count`: as in the shader.
 void dispatch_step(const ComputeShader& shader, VkCommandBuffer commands,
                    const plan::SamplesOutput& samples, std::uint32_t step, std::uint32_t table,
                    std::uint32_t first_tile, std::uint32_t tile_count, std::uint32_t threads) {
-    shader.push(commands, plan::ExportSamplesPush{
-                              step, table, first_tile, tile_count, samples.block_count,
-                              samples.capacity, samples.rings.first_word, samples.rings.count,
-                              samples.vertices, static_cast<float>(samples.cell)});
+    shader.push(commands,
+                plan::ExportSamplesPush{step, table, first_tile, tile_count, samples.block_count,
+                                        samples.capacity, static_cast<float>(samples.cell)});
     shader.dispatch_threads(commands, threads);
 }
 
@@ -99,7 +86,7 @@ void dispatch_count(const ComputeShader& shader, const graph::PassCommands& comm
                       run.tile_count, run.tile_count);
         first_tile += run.tile_count;
     }
-    dispatch_rows(shader, commands, input, with_hits, plan::count_step);
+    dispatch_rows(shader, commands, input, with_masks, plan::count_step);
 }
 
 }  // namespace
@@ -139,44 +126,42 @@ ExportField::ExportField(const gpu::Device& device, const ComputeLayout& layout)
     graph.compile(device);
 }
 
+// A search that takes the same scratch memory waits for the one before, and so for this.
 ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& layout)
-    : shader(device, layout, shaders::export_records_comp, "nearfield export records"),
-      words(graph.import_buffer({"point results"}, after_tiles)),
-      tables(graph.import_buffer({"tables", true, false})),
-      blocks(graph.import_buffer({"record blocks"})),
+    : shader(device, layout, shaders::export_records_comp, "nearfield export records",
+             search_constants(device)),
+      shapes(graph.import_buffer({"pair shapes", true, false})),
+      scratch(graph.import_buffer({"pair scratch"}, after_tiles)),
+      blocks(graph.import_buffer({"record blocks"}, {write, {}})),
       records(graph.import_buffer({"records"}, exported_buffer)) {
     graph::Handle counted = blocks;
     graph::Handle output = records;
     // The first pass writes no record. It waits for a buffer of the host all the same: its shader
     // has the binding, and to validation layers that is an access.
     add_pass(graph, "count records", shader,
-             {{0, words}, {1, tables}, {3, counted, write}, {2, output, write}},
-             [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
-                 dispatch_runs(of, commands, input, plan::count_step);
-             });
-    add_pass(graph, "place records", shader, {{3, counted, write}, {2, output, write}},
+             {{0, shapes}, {1, scratch}, {3, counted, write}, {2, output, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
-                 plan::ExportRecordsPush push{};
-                 push.step = plan::place_step;
-                 push.block_count = input.records->block_count;
-                 push.capacity = input.records->capacity;
-                 of.push(commands, push);
-                 of.dispatch_threads(commands, 1);
+                 dispatch_records(of, commands, input, plan::count_step, input.blocks);
+             });
+    add_pass(graph, "place records", shader,
+             {{0, shapes}, {1, scratch}, {3, counted, write}, {2, output, write}},
+             [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
+                 dispatch_records(of, commands, input, plan::place_step, 1);
              });
     add_pass(graph, "write records", shader,
-             {{0, words}, {1, tables}, {3, counted}, {2, output, write}},
-             [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
-                 dispatch_runs(of, commands, input, plan::write_step);
+             {{0, shapes}, {1, scratch}, {3, counted}, {2, output, write}},
+             [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
+                 dispatch_records(of, commands, input, plan::write_step,
+                                  plan::points_per_block * input.blocks);
              });
     graph.compile(device);
 }
 
-// The graphs of the tile batches leave their hits readable (render::CompiledGraph), wherever they
-// are stored.
+// The graphs of the tile batches leave their masks readable (render::CompiledGraph).
 ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& layout)
     : shader(device, layout, shaders::export_samples_comp, "nearfield export samples"),
       summaries(graph.import_buffer({"tile summaries"}, after_tiles)),
-      hits(graph.import_buffer({"found in cells"}, {read, {}})),
+      masks(graph.import_buffer({"masks"}, {read, {}})),
       tables(graph.import_buffer({"tables", true, false})),
       blocks(graph.import_buffer({"sample blocks"})),
       samples(graph.import_buffer({"resident samples"}, exported_buffer)) {
@@ -185,7 +170,7 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
     // The first pass writes no sample; see ExportRecords.
     add_pass(graph, "count samples", shader,
              {{0, summaries, read, 0, with_summaries},
-              {0, hits, read, 0, with_hits},
+              {0, masks, read, 0, with_masks},
               {1, tables},
               {3, counted, write},
               {2, output, write}},
@@ -196,7 +181,7 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
                                input.samples->tile_count, 1);
              });
     add_pass(graph, "write samples", shader,
-             {{0, hits}, {1, tables}, {3, counted}, {2, output, write}},
+             {{0, masks}, {1, tables}, {3, counted}, {2, output, write}},
              [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
                  dispatch_rows(of, commands, input, 0, plan::write_step);
              });

@@ -42,21 +42,23 @@ struct ExportField {
     graph::Handle feature;
 };
 
-/// The records of a query: count, place, write.
+/// The records of what PairSearch has found in one direction of a query: count, place, write. It
+/// follows the search of the part that has the direction; the directions of a query follow each
+/// other.
 struct ExportRecords {
     ExportRecords(const gpu::Device& device, const ComputeLayout& layout);
 
     struct Input {
-        const plan::RecordsOutput* records = nullptr;
-        std::span<const plan::PointRunOutput> runs;
-        std::span<const std::uint32_t> details;  ///< by run: index of the first point's details
-        std::span<const graph::BoundResources> resources;  ///< by run, and at least one
+        /// Those of the search, with the direction in its part, the flags of the records, their
+        /// capacity and the frame.
+        plan::SearchPush push;
+        std::uint32_t blocks = 0;  ///< of points
     };
 
     ComputeShader shader;
     graph::RecordedGraph<Input> graph;
-    graph::Handle words;  ///< of points, as written by the tile batches
-    graph::Handle tables;
+    graph::Handle shapes;
+    graph::Handle scratch;
     graph::Handle blocks;
     graph::Handle records;  ///< with their summary
 };
@@ -75,7 +77,7 @@ struct ExportSamples {
     ComputeShader shader;
     graph::RecordedGraph<Input> graph;
     graph::Handle summaries;  ///< as written by the tile batches
-    graph::Handle hits;       ///< in the cells
+    graph::Handle masks;      ///< with the edges of cells
     graph::Handle tables;
     graph::Handle blocks;
     graph::Handle samples;  ///< with their summary

@@ -77,9 +77,8 @@ void ResolveField::declare_cells(TileGraph& graph, graph::Handle input, FieldIma
                      const std::size_t list = plan::group_list(sign);
                      if (!context.batch.raster.groups[list].empty()) {
                          shader.bind_set(commands, commands.set(encoding));
-                         shader.dispatch_groups<plan::ResolveFieldPush>(
-                             commands, context.batch, list, sign_mask(sign),
-                             context.batch.resident ? 1U : 0U);
+                         shader.dispatch_groups<plan::ResolveFieldPush>(commands, context.batch,
+                                                                        list, sign_mask(sign));
                      }
                  }
              });

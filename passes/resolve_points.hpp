@@ -13,19 +13,13 @@ namespace nearfield::passes {
 /// flags).
 class ResolvePoints {
 public:
-    /// The source of the nearest edge and of the side.
-    enum class Source {
-        images,  ///< the feature and sign images (the raster technique)
-        lists,   ///< the edge lists alone (the compute technique)
-    };
-    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, Source source);
+    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout);
 
-    /// Adds the pass. Without images, leave out the last two parameters.
+    /// Adds the pass. `features`, `sign`: images.
     void declare(TileGraph& graph, graph::Handle input, graph::Handle results,
-                 graph::Handle features = {}, graph::Handle sign = {}) const;
+                 graph::Handle features, graph::Handle sign) const;
 
 private:
-    Source source_;
     ComputeShader shader_;
 };
 

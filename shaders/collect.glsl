@@ -10,31 +10,20 @@
 
 layout(push_constant) uniform Push { CollectPush push; };
 
-layout(std430, set = 0, binding = 1) writeonly buffer KeptHits {
-    uint kept_hits[];  // one word per cell, 0 if it is no sample
-};
-
 void main() {
     CellGroup group = group_at(push.first_group + gl_WorkGroupID.x);
     TileData tile = tile_at(group.tile);
     uvec2 low = unpacked(group.cell);
     uint column = low.x + gl_LocalInvocationID.x;
     uint first_row = low.y + gl_LocalInvocationID.y * overlap_cells_per_thread;
-    bool keeps = group.second != not_asked;
-    if ((summaries[group.tile].passed == 0u && !keeps) || column >= tile.width ||
-        first_row >= tile.height) {
+    if (summaries[group.tile].passed == 0u || column >= tile.width || first_row >= tile.height) {
         return;
     }
     uint rows = min(overlap_cells_per_thread, tile.height - first_row);
     ivec2 corner = ivec2(tile.atlas_x + column, tile.atlas_y + first_row);
     uint found = 0u;
     for (uint i = 0u; i < rows; ++i) {
-        uint hit = hit_at(corner + ivec2(0, i));
-        bool is_found = (hit & white) == white;
-        found |= is_found ? 1u << i : 0u;
-        if (keeps) {
-            kept_hits[group.second + (first_row + i) * tile.width + column] = is_found ? hit : 0u;
-        }
+        found |= (hit_at(corner + ivec2(0, i)) & white) == white ? 1u << i : 0u;
     }
     if (found == 0u) {
         return;

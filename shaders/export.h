@@ -13,29 +13,25 @@ const uint count_step = 1u;
 const uint place_step = 2u;
 const uint write_step = 3u;
 
-// Points from which one thread makes records, one after the other.
-const uint points_per_block = 32u;
-// A point in the tables: its position relative to the query's origin (two floats), B's normal if it
-// is B's point (packSnorm2x16), its place among the points of the query.
-const uint words_of_point = 4u;
+// Points whose records one thread counts, one after the other. Fewer blocks than drivers allow turns
+// of a loop (see max_instance_steps) hold all that a search looks at.
+const uint points_per_block = 64u;
 
-// Counts for such a block, or for all blocks before it.
+// What there is of such a block.
 struct RecordBlockData {
     // Records; after the second step, records of the blocks before it
     uint count NEARFIELD_DEFAULT(0);
-    uint deepest NEARFIELD_DEFAULT(0);  // index among them
-    float depth NEARFIELD_DEFAULT(0.0F);
+    uint deepest NEARFIELD_DEFAULT(0);    // index among them
+    float depth NEARFIELD_DEFAULT(0.0F);  // in units of B's frame
     uint unused NEARFIELD_DEFAULT(0);
-    vec2 low;
-    vec2 high;
 };
-NEARFIELD_CHECK(sizeof(RecordBlockData) == 32)
+NEARFIELD_CHECK(sizeof(RecordBlockData) == 16)
 
 // Replaces the word of something that does not exist.
 const uint no_word = 0xffffffffu;
 
-// A tile of an intersection, as stored in the tables. The hits in its cells lie in the words of its
-// tile batch: one word per cell where drawn, two masks by the compute technique.
+// A tile of an intersection, as stored in the tables. The masks of its shapes lie in the scratch
+// memory of its tile batch.
 struct SampleTileData {
     uint width NEARFIELD_DEFAULT(0);
     uint height NEARFIELD_DEFAULT(0);
@@ -43,20 +39,17 @@ struct SampleTileData {
     // blocks lie between one row and the next, for the rows of the tiles beside it.
     uint first_block NEARFIELD_DEFAULT(0);
     uint block_step NEARFIELD_DEFAULT(0);
-    uint hits NEARFIELD_DEFAULT(0);           // word of the first cell's hit, or of the mask of B
-    uint mask_a NEARFIELD_DEFAULT(no_word);   // word of the mask of A; no_word where it was drawn
-    uint words_per_row NEARFIELD_DEFAULT(0);  // of the masks
-    uint runs NEARFIELD_DEFAULT(no_word);     // with masks: word of the first cell's edge of A
-    // Word of the tables where the batch's runs start, two words each; no_word where A takes part
-    // by its volume.
-    uint run_table NEARFIELD_DEFAULT(no_word);
+    uint mask_a NEARFIELD_DEFAULT(0);  // first words
+    uint mask_b NEARFIELD_DEFAULT(0);
+    // Word of the first cell's edge of A; no_word where A takes part by its volume
+    uint edges NEARFIELD_DEFAULT(no_word);
     uint summary NEARFIELD_DEFAULT(0);  // index among the summaries of its tile batch
     uint region NEARFIELD_DEFAULT(0);
     // Low corner of the tile, relative to the query's origin
     float corner_x NEARFIELD_DEFAULT(0.0F);
     float corner_y NEARFIELD_DEFAULT(0.0F);
 };
-const uint words_of_tile = 13u;
+const uint words_of_tile = 11u;
 NEARFIELD_CHECK(sizeof(SampleTileData) == 4 * words_of_tile)
 
 // The number of a tile's samples, and the low and high corner of their box. They come before the

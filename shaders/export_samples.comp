@@ -1,10 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Writes the summary and the samples of an intersection from the hits in the cells of its tiles,
-// ordered by region, row and column. Steps as in export_records.comp: one thread per row of a tile
-// counts, one thread computes prefix sums, one thread per row writes its samples. Boxes and counts
-// of whole tiles come from the summaries that the host reads too.
+// Writes the summary and the samples of an intersection from the masks of its tiles, ordered by
+// region, row and column, in three steps: one thread per row of a tile counts, one thread computes
+// prefix sums, one thread per row writes its samples. Boxes and counts of whole tiles come from the
+// summaries that the host reads too.
 
 #include "export.glsl"
 
@@ -25,9 +25,8 @@ const float infinity = 1.0 / 0.0;
 SampleTileData tile_at(uint word) {
     return SampleTileData(tables[word], tables[word + 1u], tables[word + 2u], tables[word + 3u],
                           tables[word + 4u], tables[word + 5u], tables[word + 6u],
-                          tables[word + 7u], tables[word + 8u], tables[word + 9u],
-                          tables[word + 10u], uintBitsToFloat(tables[word + 11u]),
-                          uintBitsToFloat(tables[word + 12u]));
+                          tables[word + 7u], tables[word + 8u],
+                          uintBitsToFloat(tables[word + 9u]), uintBitsToFloat(tables[word + 10u]));
 }
 
 // `precise`, so that boxes and samples agree bit for bit.
@@ -54,23 +53,14 @@ void write_box(uint index) {
     blocks[box + 4u] = floatBitsToUint(high.y);
 }
 
-// The hits among the 32 cells of a word of a row, one bit each.
-uint found_in(SampleTileData tile, uint row, uint word) {
-    if (tile.mask_a != no_word) {
-        uint offset = row * tile.words_per_row + word;
-        return words[tile.mask_a + offset] & words[tile.hits + offset];
-    }
-    uint first = tile.hits + row * tile.width + 32u * word;
-    uint end = min(32u, tile.width - 32u * word);
-    uint found = 0u;
-    for (uint i = 0u; i < end; ++i) {
-        found |= words[first + i] != 0u ? 1u << i : 0u;
-    }
-    return found;
-}
-
 uint words_of_row(SampleTileData tile) {
     return (tile.width + 31u) / 32u;
+}
+
+// The samples among the 32 cells of a word of a row, one bit each.
+uint found_in(SampleTileData tile, uint row, uint word) {
+    uint offset = row * words_of_row(tile) + word;
+    return words[tile.mask_a + offset] & words[tile.mask_b + offset];
 }
 
 uint block_of(SampleTileData tile, uint row) {
@@ -109,41 +99,8 @@ void place_rows() {
     }
 }
 
-vec2 vertex(uint index) {
-    uint word = push.vertices + 2u * index;
-    return uintBitsToFloat(uvec2(tables[word], tables[word + 1u]));
-}
-
-// The edge of A nearest to a point, in a run of edges; the first one if several are equally near.
-uint nearest_edge(uint first, uint count, vec2 point) {
-    if (count == 1u) {
-        return first;
-    }
-    uint nearest = first;
-    float best = infinity;
-    for (uint edge = first; edge < first + count; ++edge) {
-        vec2 a = (vertex(edge) - point) / push.cell;
-        vec2 way = (vertex(next_vertex(edge, push.rings, push.ring_count)) - point) / push.cell - a;
-        float squared = dot(way, way);
-        float along = squared > 0.0 ? clamp(-dot(a, way) / squared, 0.0, 1.0) : 0.0;
-        vec2 offset = a + along * way;
-        if (dot(offset, offset) < best) {
-            best = dot(offset, offset);
-            nearest = edge;
-        }
-    }
-    return nearest;
-}
-
-uint edge_of(SampleTileData tile, uint cell, vec2 point) {
-    if (tile.mask_a != no_word) {
-        return tile.runs != no_word ? words[tile.runs + cell] : nearfield_no_edge;
-    }
-    if (tile.run_table == no_word) {
-        return nearfield_no_edge;
-    }
-    uint word = tile.run_table + 2u * (words[tile.hits + cell] >> run_shift);
-    return nearest_edge(tables[word], tables[word + 1u], point);
+uint edge_of(SampleTileData tile, uint cell) {
+    return tile.edges != no_word ? words[tile.edges + cell] : nearfield_no_edge;
 }
 
 void write_row(SampleTileData tile, uint row) {
@@ -154,7 +111,7 @@ void write_row(SampleTileData tile, uint row) {
             uint column = 32u * word + uint(findLSB(found));
             found &= found - 1u;
             vec2 point = centre_of(tile, column, row);
-            uint edge = edge_of(tile, row * tile.width + column, point);
+            uint edge = edge_of(tile, row * tile.width + column);
             samples[place++] = NearfieldIntersectionSample(point, edge, tile.region);
         }
     }

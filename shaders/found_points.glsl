@@ -20,6 +20,15 @@ uint found_before(uint point) {
                           (scratch_unit(push.point_units + point).x >> local_shift));
 }
 
+// Whether there was room for all that the search has counted.
+bool had_room() {
+    bool fits = true;
+    for (uint stage = 0u; stage < row_total; ++stage) {
+        fits = fits && scratch[first_counted + stage] <= scratch[stage];
+    }
+    return fits;
+}
+
 // The depths of four points, of which the first has a number that four divides.
 vec4 four_depths(uint four) {
     return uintBitsToFloat(scratch_unit(push.depths / 4u + four));

@@ -51,7 +51,7 @@ struct CellGroup {
     uint tile NEARFIELD_DEFAULT(0);
     uint cell NEARFIELD_DEFAULT(0);  // the low one, column | row << 16
     // Of a field: where the tile's values and features start in the results, or not_asked. Of an
-    // overlap: 1 if samples are listed; where the hits of the cells are kept, or not_asked.
+    // overlap: 1 if samples are listed; nothing.
     uint first NEARFIELD_DEFAULT(0);
     uint second NEARFIELD_DEFAULT(0);
 };
@@ -95,11 +95,6 @@ const uint point_edge_mask = (1u << 28) - 1u;
 const uint first_vertex_flag = 1u << 28;
 const uint last_vertex_flag = 1u << 29;
 
-// Details of a resolved point that stays on the device, one after the other behind the words of all
-// points of the tile batch: the offset to the nearest point, in cells (two floats); where that lies
-// on its edge, 0 at the first vertex, 1 at the last; at a point of contact, the edge's outward
-// normal (packSnorm2x16).
-const uint words_of_details = 4u;
 // Closer to the boundary than this, in cells, single precision cannot decide on which side a point
 // lies.
 NEARFIELD_FLOAT touching = 1.0 / 32768.0;

@@ -6,6 +6,7 @@
 
 #include "search.glsl"
 #include "pairs.h"
+#include "found_points.glsl"
 #include "pair_totals.glsl"
 
 layout(local_size_x = group_size) in;
@@ -57,11 +58,9 @@ void add_to_parts(uvec4 totals) {
 
 // How much was counted, for the host and for results that stay on the device.
 void write_totals(uint total) {
-    uint overflow = total > push.capacity ? 1u : 0u;
+    uint overflow = total > push.capacity || !had_room() ? 1u : 0u;
     for (uint stage = 0u; stage < row_total; ++stage) {
-        uint counted = scratch[first_counted + stage];
-        pair_counts[stage] = counted;
-        overflow |= counted > scratch[stage] ? 1u : 0u;
+        pair_counts[stage] = scratch[first_counted + stage];
     }
     pair_counts[row_total] = total;
     if (scratch[has_too_many_pairs] != 0u) {

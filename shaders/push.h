@@ -82,7 +82,6 @@ struct FieldPush {
 struct ResolveFieldPush {
     uint first_group;
     uint sign_mask;
-    uint resident;  // 1: features are resident and flag nearest vertices
 };
 
 struct ResolveFieldPointsPush {
@@ -98,7 +97,6 @@ struct ResolveFieldPointsPush {
 struct ResolvePointsPush {
     uint first;
     uint end;
-    uint details;  // first word of the details in the results, or not_asked
 };
 
 struct SearchPush {
@@ -127,6 +125,9 @@ struct SearchPush {
     // The part that is searched: pairs whose `a` is one of these instances, or given directions
     uint first_instance;
     uint end_instance;
+    // Of records that stay: B's frame in the world, a unit of its x axis and its centre
+    vec2 frame_axis;
+    vec2 frame_place;
 };
 const uint search_packs_all = 1u;  // the host reads all points that were found
 const uint search_crosses = 2u;    // the edges of pairs of contacts also cross each other
@@ -184,22 +185,6 @@ struct ExportHeaderPush {
     uint height NEARFIELD_DEFAULT(0);
 };
 
-struct ExportRecordsPush {
-    uint step;
-    uint first_block;  // first block of this run of points
-    uint block_count;  // of the run; in the second step, of all runs
-    uint point_count;  // of the run
-    uint word;         // position of the run's first point
-    uint details;      // position of its details
-    uint points;       // position of the run's points in the tables
-    uint rings;
-    uint ring_count;
-    uint flags;  // of the run's records
-    float cell;
-    float nearby;  // contacts: maximum distance, world units; negative: only points inside
-    uint capacity;
-};
-
 struct ExportSamplesPush {
     uint step;
     uint table;        // position of the tile, or of the first one, in the tables
@@ -207,9 +192,6 @@ struct ExportSamplesPush {
     uint tile_count;   // of the tile batch in the first step, of the query in the others
     uint block_count;  // of all rows; 0 if samples are omitted
     uint capacity;
-    uint rings;  // of A
-    uint ring_count;
-    uint vertices;  // of A
     float cell;
 };
 

@@ -34,11 +34,6 @@ void main() {
     }
     if (first_feature != not_asked) {
         Nearest nearest;
-        vec2 centre = vec2(cell) + 0.5;
-        uint word = field_feature(tile, centre, cell, nearest);
-        if (push.resident != 0u) {
-            word |= vertex_flags(centre, tile.nearest, nearest);
-        }
-        field.words[first_feature + index] = word;
+        field.words[first_feature + index] = field_feature(tile, vec2(cell) + 0.5, cell, nearest);
     }
 }

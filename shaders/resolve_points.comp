@@ -22,9 +22,7 @@ layout(set = 0, binding = 5) uniform usampler2D sign_image;
 
 layout(push_constant) uniform Push { ResolvePointsPush push; };
 
-#include "details.glsl"
-
-uint resolve(uint index, PointData point) {
+uint resolve(PointData point) {
     TileData tile = tile_at(point.tile);
     vec2 p = point.position;
     ivec2 cell = clamp(ivec2(floor(p)), ivec2(0), ivec2(tile.width, tile.height) - 1);
@@ -49,7 +47,6 @@ uint resolve(uint index, PointData point) {
         return 0u;
     }
     nearest = find_nearest(p, tile.nearest, nearest);
-    write_details(index, p, nearest, tile);
     uint unique = has_rival(p, tile.nearest, nearest, tile.margin) ? 0u : point_unique;
     return point_resolved | (inside ? point_inside : 0u) | unique | nearest.edge;
 }
@@ -57,6 +54,6 @@ uint resolve(uint index, PointData point) {
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index < push.end) {
-        results[index] = resolve(index, points[index]);
+        results[index] = resolve(points[index]);
     }
 }

@@ -65,8 +65,8 @@ struct SearchDirectionData {
     float rival NEARFIELD_DEFAULT(0.0F);
     float outside NEARFIELD_DEFAULT(0.0F);  // 1: points outside B are asked for as well
     float doubt NEARFIELD_DEFAULT(0.0F);  // a second edge farther by no more: in doubt; < 0: never
-    // Points that are not deeper only touch. Negative: the row tells nothing of the points, of
-    // which the host asks for all; or the CPU answers the pair
+    // Points that are not deeper only touch. Negative, of the same magnitude: the row tells nothing
+    // of the points, of which the host asks for all; or, of any, the CPU answers the pair
     float touching NEARFIELD_DEFAULT(-1.0F);
     // Numbers of the instances; of a direction that the host gives, of its query, and nothing
     uint a NEARFIELD_DEFAULT(0);

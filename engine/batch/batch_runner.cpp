@@ -19,6 +19,19 @@ std::size_t place_of(const std::vector<Output>& all, std::uint32_t query) {
     return static_cast<std::size_t>(found - all.begin());
 }
 
+/// The error of a query whose records do not all stay.
+Status no_room(const plan::RecordsOutput& records, std::uint32_t count) {
+    const std::uint64_t bytes =
+        sizeof(SummaryData) + std::uint64_t{std::max(count, records.capacity)} * sizeof(RecordData);
+    return {StatusCode::overflow,
+            "query " + std::to_string(records.query) + " has " + std::to_string(count) +
+                " records, and what stays on the device has room for " +
+                std::to_string(records.capacity) +
+                (records.target.buffer == VK_NULL_HANDLE
+                     ? "; that of the next batch has room for as many"
+                     : "; a buffer of " + std::to_string(bytes) + " bytes has room for as many")};
+}
+
 }  // namespace
 
 BatchRunner::BatchRunner(Planning& planning, render::Renderer* renderer)
@@ -60,7 +73,9 @@ void BatchRunner::make_tile_batches() {
         build_tile_batches();
     }
     planning_->pairs.build(plan_, planning_->rule.largest_range, pairs_);
-    resident_outputs_builder_.build(plan_, tile_batches, results_.results, resident_);
+    resident_outputs_builder_.build(plan_, tile_batches, results_.results,
+                                    renderer_ == nullptr ? 0 : renderer_->expected_records(),
+                                    resident_);
 }
 
 /// Divides the queries between the CPU and the device. Those that are rejected are left to neither.
@@ -139,7 +154,7 @@ void BatchRunner::trim() noexcept {
     }
 }
 
-/// Resident records need the device even without tile batches: to state that there are none.
+/// Resident samples need the device even without tile batches: to state that there are none.
 bool BatchRunner::has_device_work() const {
     return !for_device_.empty() &&
            (plan_.tile_batches > 0 || !pairs_.directions.empty() || !resident_.empty());
@@ -304,6 +319,7 @@ void BatchRunner::collect(Laps& laps) {
     if (!for_device_.empty()) {
         planning_->writer.write(plan_, for_device_, answers_, results_.results);
         solve_what_had_no_room();
+        check_room_for_records();
         timings.decode += laps.next();
     }
     std::erase_if(timings.passes, [](const PassTime& pass) { return pass.milliseconds < 0.0; });
@@ -330,6 +346,25 @@ void BatchRunner::solve_what_had_no_room() {
                               results_.results);
 }
 
+/// Says in the results which records that stay were more than there was room for.
+void BatchRunner::check_room_for_records() {
+    for (const plan::RecordsOutput& records : resident_.records) {
+        std::visit(
+            [&](auto& result) {
+                if constexpr (requires { result.count, result.points; }) {
+                    if (!result.status.ok()) {
+                        return;
+                    }
+                    renderer_->note_records(result.count);
+                    if (result.count > records.capacity || answers_.pairs().are_left_to_cpu()) {
+                        result.status = no_room(records, result.count);
+                    }
+                }
+            },
+            results_.results[records.query]);
+    }
+}
+
 /// The position of the query that all work on the device was for, if it was for one alone.
 std::optional<std::size_t> BatchRunner::only_query_on_device() const {
     if (for_device_.empty()) {
@@ -349,9 +384,6 @@ std::optional<std::size_t> BatchRunner::only_query_on_device() const {
         add(searched.query);
     }
     // Even without tiles these have passes that state that there is nothing.
-    for (const plan::RecordsOutput& records : resident_.records) {
-        add(records.query);
-    }
     for (const plan::SamplesOutput& samples : resident_.samples) {
         add(samples.query);
     }

@@ -134,6 +134,7 @@ private:
     void wait();
     void read_back(Laps& laps);
     void take_found_pairs(bool was_recorded);
+    void check_room_for_records();
     void decode(std::uint32_t number);
     template <class Query>
     void require_on_device(QueryHandle<Query> handle) const;

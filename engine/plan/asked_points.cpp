@@ -16,7 +16,7 @@ bool is_left_to_cpu(const PlannedQuery& query, std::size_t edges) {
     constexpr std::size_t few = 1024;
     const bool can_be = std::holds_alternative<PenetrationQuery>(*query.query) ||
                         std::holds_alternative<ContactQuery>(*query.query);
-    return can_be && !query.on_device && edges > few;
+    return can_be && edges > few;
 }
 
 }  // namespace nearfield::plan

@@ -205,8 +205,9 @@ Status Targets::add(const BufferTarget& target, std::uint32_t query) {
                        "has no number of bytes that may be written "
                        "(BufferTarget::size), such as VK_WHOLE_SIZE");
     }
-    // Records and samples begin with a summary of this size even if there are none.
-    if (Status status = check_room(target, sizeof(SummaryData), "summary"); !status.ok()) {
+    // Records and samples begin with a summary, of this size at most, even if there are none.
+    if (Status status = check_room(target, sizeof(IntersectionSummaryData), "summary");
+        !status.ok()) {
         return status;
     }
     if (Status status = check_states(target.before, target.after, buffer_name); !status.ok()) {

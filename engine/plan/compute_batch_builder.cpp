@@ -1,14 +1,8 @@
-#include <engine/plan/asked_points.hpp>
 #include <engine/plan/compute_batch_builder.hpp>
 #include <engine/plan/tile_batch.hpp>
 
-#include <algorithm>
-
 namespace nearfield::plan {
 namespace {
-
-using geometry::TransformedPolygon;
-using geometry::Vector;
 
 /// In place of the reach of a boundary.
 constexpr double by_volume = -1.0;
@@ -25,12 +19,6 @@ std::uint32_t turns_of_edge(const Tile& tile, bool is_boundary, bool is_listed) 
     return is_listed ? 24 * around : is_boundary ? 4 * around : tile.height + 8;
 }
 
-TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes) {
-    const double cell = tile.grid.cell;
-    return {shapes.get(*query.b, query.budget.simplification, longest_tile_run * cell),
-            ToCells(TransformedPolygon(*query.b, query.pose_b), tile.origin(), cell)};
-}
-
 std::uint32_t words_per_row(const Tile& tile) {
     return (tile.width + 31) / 32;
 }
@@ -43,31 +31,6 @@ std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
 }
 
 }  // namespace
-
-bool ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile,
-                                     SimplifiedShapes& shapes, TileData& data, TileBatch& batch) {
-    const TileBoundary boundary = boundary_of(query, tile, shapes);
-    const double simplification = query.budget.simplification / tile.grid.cell;
-    crossing_.clear();
-    crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
-    finder_.find(boundary, tile.needed, simplification + margin_in_cells, nearest_);
-    if (is_left_to_cpu(query, crossing_.size() + nearest_.size())) {
-        return false;
-    }
-    batch.lists.begin_tile(boundary);
-    nearest_list_.clear();
-    double largest_reach = 0.0;
-    for (const NearestEdge& nearest : nearest_) {
-        nearest_list_.push_back(nearest.edge);
-        largest_reach = std::max(largest_reach, nearest.reach());
-    }
-    data.nearest = batch.lists.write(nearest_list_,
-                                     std::max(tile.width, tile.height) + 2.0 * largest_reach + 4.0);
-    data.crossing = batch.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
-    data.margin = static_cast<float>(margin_in_cells);
-    data.outside = query.points().outside ? 1 : 0;
-    return true;
-}
 
 void ComputeBuilder::add_mask_shape(const ShapeInTileData& seen, const Tile& tile, double reach,
                                     std::uint32_t first_edge, ComputeWork& work) const {

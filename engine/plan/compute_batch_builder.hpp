@@ -1,20 +1,15 @@
 #pragma once
 
 #include <engine/plan/compute_work.hpp>
-#include <engine/plan/nearest_edges.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/shapes_in_tiles.hpp>
-#include <engine/plan/simplified_shapes.hpp>
-#include <engine/plan/tile_edges.hpp>
 
 #include <cstdint>
-#include <vector>
 
 namespace nearfield::plan {
 
 struct FieldTile;
 struct OverlapTile;
-struct TileBatch;
 
 /// Turns the tiles of a tile batch of the compute technique into its work: masks, fields, lists of
 /// near edges. Keeps its scratch memory.
@@ -23,10 +18,6 @@ public:
     /// Call first in each batch.
     void begin_batch() { shapes_.begin_batch(); }
     void forget_shapes() { shapes_.clear(); }
-    /// Adds the edge lists of a tile of boundary points; false, with nothing added, if the tile is
-    /// left to the CPU.
-    [[nodiscard]] bool add_points_tile(const PlannedQuery& query, const Tile& tile,
-                                       SimplifiedShapes& shapes, TileData& data, TileBatch& batch);
     /// Adds a field tile. `field` says where in the read-back the requested outputs go.
     void add_field_tile(const PlannedQuery& query, const Tile& tile, const FieldTile& field,
                         ComputeWork& work);
@@ -41,10 +32,6 @@ private:
                         std::uint32_t first_edge, ComputeWork& work) const;
 
     ShapesInTiles shapes_;
-    NearestEdgeFinder finder_;
-    std::vector<NearestEdge> nearest_;
-    std::vector<TileEdge> nearest_list_;
-    std::vector<TileEdge> crossing_;
 };
 
 }  // namespace nearfield::plan

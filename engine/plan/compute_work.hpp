@@ -10,7 +10,7 @@
 
 namespace nearfield::plan {
 
-/// The work of a tile batch of the compute technique, beyond edge lists and points.
+/// The work of a tile batch of the compute technique.
 struct ComputeWork {
     std::vector<MaskShapeData> mask_shapes;
     std::vector<MaskRowData> field_rows;

@@ -1,13 +1,14 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
-#include <engine/plan/check_target.hpp>
 #include <engine/plan/point_planner.hpp>
 #include <engine/plan/point_search.hpp>
 #include <engine/plan/region.hpp>
 #include <engine/plan/search_shapes.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 namespace nearfield::plan {
@@ -22,14 +23,8 @@ using localize::Chain;
 // Host memory per point: planned and resolved, in the result and in the buffers on the way there.
 constexpr double bytes_per_point =
     sizeof(PlannedPoint) + std::max(sizeof(PenetratingPoint), sizeof(ContactPoint)) + 64.0;
-// The same for a resident point: its details, its table entry, its record.
-constexpr double bytes_per_resident_point = 16.0 + 16.0 + 40.0;
 // What is kept of a point that the device finds, beside its record.
 constexpr double bytes_of_found = sizeof(FoundPointData);
-
-double bytes_of_point(const PlannedQuery& query) {
-    return bytes_per_point + (query.on_device ? bytes_per_resident_point : 0.0);
-}
 
 // For either boundary, in a search that is finished exactly.
 constexpr double max_search_samples = 4096.0;
@@ -65,10 +60,32 @@ std::uint32_t add_reverse(CurrentQuery& current) {
     return index;
 }
 
-/// What stays on the device is not searched there, but planned here.
+/// Whether the device can search boundaries with so many points.
+bool is_searchable(double samples, const CurrentQuery& current) {
+    const PlannedQuery& planned = current.planned();
+    return samples <= max_searched_points &&
+           max_shape_bytes(*planned.a, *planned.b) <= current.limits.largest_range;
+}
+
+/// Checks that the device can search what is to stay there; the result states the error.
+bool check_resident(double samples, const CurrentQuery& current, ResultSummary& result) {
+    const PlannedQuery& planned = current.planned();
+    if (!planned.on_device || is_searchable(samples, current)) {
+        return true;
+    }
+    result.status = {StatusCode::too_large,
+                     "of records that are to stay on the device (on_device), it searches " +
+                         number(max_searched_points) + " points and shapes of " +
+                         number(static_cast<double>(current.limits.largest_range)) +
+                         " bytes; these boundaries may have " + number(std::ceil(samples)) +
+                         " points, and their shapes take " +
+                         number(static_cast<double>(max_shape_bytes(*planned.a, *planned.b))) +
+                         " bytes"};
+    return false;
+}
+
 PointSource source_of(const PlannedQuery& planned) {
-    return planned.technique == Technique::compute && !planned.on_device ? PointSource::device
-                                                                         : PointSource::planner;
+    return planned.technique == Technique::compute ? PointSource::device : PointSource::planner;
 }
 
 void add_search(std::uint32_t direction, const TransformedPolygon& a, const TransformedPolygon& b,
@@ -92,43 +109,20 @@ void search(double reach, bool both_ways, geometry::RecentlyPlaced& instances,
     const Box of_a = a.box.intersection(grown(b.box, reach));
     const Box of_b = b.box.intersection(grown(a.box, reach));
     const bool are_near = !of_a.isEmpty() && !of_b.isEmpty();
+    // What stays on the device says there that there is nothing.
+    const bool is_searched = are_near || planned.on_device;
     if (are_near) {
         const Box where = both_ways ? of_a.merged(of_b) : of_a;
         result.regions.push_back(region_of(Grid::covering(where, planned.budget.cell)));
+    }
+    if (is_searched) {
         add_search(current.index, a.placed, b.placed, current.plan);
     }
     if (both_ways) {
         const std::uint32_t reverse = add_reverse(current);
-        if (are_near) {
+        if (is_searched) {
             add_search(reverse, b.placed, a.placed, current.plan);
         }
-    }
-}
-
-/// Checks that the records of the query, whose points are planned, fit the host's buffer, if it
-/// names one. Otherwise drops its tiles, from `first_tile` on, and its points; the result states
-/// the error.
-void check_room_for_records(const BufferTarget* target, std::size_t first_tile,
-                            CurrentQuery& current, ResultSummary& result) {
-    Plan& plan = current.plan;
-    PlannedQuery& planned = current.planned();
-    if (!planned.on_device || target == nullptr) {
-        return;
-    }
-    PlannedPoints& of_a = planned.points();
-    PlannedPoints* const of_b =
-        of_a.reverse == PlannedPoints::none ? nullptr : &plan.queries[of_a.reverse].points();
-    const double points = 1.0 * of_a.count + (of_b == nullptr ? 0.0 : 1.0 * of_b->count);
-    result.status =
-        check_room(*target, sizeof(SummaryData) + points * sizeof(RecordData), "records");
-    if (result.status.ok()) {
-        return;
-    }
-    plan.tiles.resize(first_tile);
-    plan.points.resize(plan.points.size() - static_cast<std::size_t>(points));
-    of_a.count = 0;
-    if (of_b != nullptr) {
-        of_b->count = 0;
     }
 }
 
@@ -175,6 +169,9 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
                         PenetrationResult& result) {
     PlannedQuery& planned = current.planned();
     auto& points = planned.work.emplace<PlannedPoints>();
+    if (!check_resident(max_points(planned), current, result)) {
+        return;
+    }
     points.source = source_of(planned);
     const bool is_searched = points.source == PointSource::device;
     // Of points that are only counted the device leaves out those that cannot be the deepest.
@@ -205,17 +202,15 @@ void PointPlanner::add_deepest(const PenetrationQuery& query, double samples, Cu
     const PlannedQuery& planned = current.planned();
     const TransformedPolygon a(*planned.a, planned.pose_a);
     const Box box_b = TransformedPolygon(*planned.b, planned.pose_b).box();
-    current.memory.require(bytes_of_point(planned) * samples, 1.0);
+    current.memory.require(bytes_per_point * samples, 1.0);
     samples_.clear();
     if (query.points == PenetrationPoints::vertices) {
         vertices_of_chains(a, chains_[0], samples_);
     } else {
         sample_chains(a, chains_[0], result.cell, box_b, samples_);
     }
-    const std::size_t first_tile = current.plan.tiles.size();
     regions_.cover(chains_[0], 0.0, box_b, result);
     add_samples(current.index, box_b, current);
-    check_room_for_records(query.target, first_tile, current, result);
 }
 
 void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, ContactResult& result) {
@@ -229,6 +224,9 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
     }
     const double of_boundaries =
         max_samples(*planned.a, result.cell) + max_samples(*planned.b, result.cell);
+    if (!check_resident(of_boundaries, current, result)) {
+        return;
+    }
     const double near = query.contact_distance;
     const double kept = (!query.summary_only ? sizeof(ContactPoint) : 0.0) + bytes_of_found;
     if (is_searched && current.memory.fits_roughly(kept * of_boundaries)) {
@@ -248,10 +246,8 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
         return;
     }
     const std::uint32_t reverse = add_reverse(current);
-    const std::size_t first_tile = current.plan.tiles.size();
     add_near(current.index, near, chains_[0], of_a, current, result);
     add_near(reverse, near, chains_[1], of_b, current, result);
-    check_room_for_records(query.target, first_tile, current, result);
 }
 
 void PointPlanner::add_near(std::uint32_t direction, double contact_distance,
@@ -264,7 +260,7 @@ void PointPlanner::add_near(std::uint32_t direction, double contact_distance,
     const Box within =
         grown(TransformedPolygon(*planned.b, planned.pose_b).box(), contact_distance);
     regions_.cover(chains, 0.0, within, result);
-    current.memory.require(bytes_of_point(planned) * samples, 1.0);
+    current.memory.require(bytes_per_point * samples, 1.0);
     samples_.clear();
     sample_chains(TransformedPolygon(*planned.a, planned.pose_a), chains, result.cell, within,
                   samples_);
@@ -330,7 +326,7 @@ void PointPlanner::add_closest(std::uint32_t direction, const std::vector<Chain>
     const Box everything = grown(a.box(), result.cell);
     regions_.cover(chains, 0.0, everything, result);
     const double samples = max_samples(a, chains, result.cell, everything);
-    current.memory.require(bytes_of_point(planned) * samples, 1.0);
+    current.memory.require(bytes_per_point * samples, 1.0);
     samples_.clear();
     sample_chains(a, chains, result.cell, everything, samples_);
     // A short chain may lie between two samples.

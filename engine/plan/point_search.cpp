@@ -20,11 +20,6 @@ bool asks_for_vertices(const PlannedQuery& query) {
     return penetration != nullptr && penetration->points == PenetrationPoints::vertices;
 }
 
-/// Points that are not deeper only touch. Precondition: a penetration query.
-double touching_of(const PlannedQuery& query) {
-    return std::get<PenetrationQuery>(*query.query).tolerance * static_cast<double>(touching_depth);
-}
-
 // Transforms A's frame to B's, in units of B's. Everything happens in floats, in a handful of
 // operations, each of which errs by at most 2^-24 of its result: 2^-20 of the largest coordinates
 // covers them.
@@ -44,8 +39,9 @@ SearchDirectionData direction_of(const PlannedQuery& query, const Vector& axis,
     data.rival = static_cast<float>(cell / std::numbers::sqrt2 * uniqueness_margin);
     data.outside = query.points().outside ? 1.0F : 0.0F;
     data.doubt = data.margin > search_precision * cell ? data.rival + 4.0F * data.margin : -1.0F;
-    data.touching =
-        query.points().summarized ? static_cast<float>(touching_of(query) / unit) : -1.0F;
+    const auto touching =
+        static_cast<float>(cell / std::numbers::sqrt2 * static_cast<double>(touching_depth));
+    data.touching = query.points().summarized ? touching : -touching;
     return data;
 }
 

@@ -45,34 +45,26 @@ struct FieldOutputs {
     std::uint32_t part_count = 0;
 };
 
-/// Points of one boundary that one tile batch resolves.
-struct PointRunOutput {
-    std::uint32_t tile_batch = 0;
-    std::uint32_t first = 0;  ///< in TileBatch::points
-    std::uint32_t count = 0;
-    std::uint32_t first_block = 0;  ///< of the query's
-    std::uint32_t table = 0;        ///< where they lie in the tables, words_of_point each
-    RingTable rings;                ///< of the shape whose features they name
-    std::uint32_t flags = 0;        ///< point_flags of their records
-
-    [[nodiscard]] std::uint32_t blocks() const {
-        return (count + points_per_block - 1) / points_per_block;
-    }
+/// What the search finds in one direction of a query.
+struct RecordRunOutput {
+    std::uint32_t direction = 0;  ///< in Plan::searched
+    std::uint32_t blocks = 0;     ///< of points, at most
+    std::uint32_t flags = 0;      ///< point_flags of its records
+    vec2 frame_axis;              ///< as in SearchPush
+    vec2 frame_place;
 };
 
 /// Points that are exported as records.
 struct RecordsOutput {
     std::uint32_t query = 0;
-    std::uint32_t capacity = 0;  ///< points
-    double max_capacity = 0.0;   ///< upper bound, at any poses
+    std::uint32_t capacity = 0;      ///< records
+    std::uint32_t max_capacity = 0;  ///< upper bound of what there can be, at any poses
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
-    BufferTarget target;          ///< the host's, if its handle is not null
-    float near = -1.0F;           ///< contacts: maximum distance, world units
-    std::uint32_t first_run = 0;  ///< in ResidentOutputs::point_runs
+    BufferTarget target;  ///< the host's, if its handle is not null
+    std::uint32_t first_run = 0;  ///< in ResidentOutputs::record_runs
     std::uint32_t run_count = 0;
-    std::uint32_t block_count = 0;
 };
 
 /// Tiles of one intersection in one tile batch.
@@ -90,9 +82,7 @@ struct SamplesOutput {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
-    BufferTarget target;          ///< the host's, if its handle is not null
-    RingTable rings;              ///< of A, where it takes part by its boundary,
-    std::uint32_t vertices = 0;   ///< and where its vertices lie in the tables, two floats each
+    BufferTarget target;  ///< the host's, if its handle is not null
     std::uint32_t first_run = 0;  ///< in ResidentOutputs::sample_runs
     std::uint32_t run_count = 0;
     std::uint32_t tile_count = 0;
@@ -103,7 +93,7 @@ struct ResidentOutputs {
     std::vector<FieldOutputs> fields;
     std::vector<FieldPartOutput> field_parts;
     std::vector<RecordsOutput> records;
-    std::vector<PointRunOutput> point_runs;
+    std::vector<RecordRunOutput> record_runs;
     std::vector<SamplesOutput> samples;
     std::vector<SampleRunOutput> sample_runs;
     std::vector<SampleTileData> sample_tiles;
@@ -113,7 +103,7 @@ struct ResidentOutputs {
         fields.clear();
         field_parts.clear();
         records.clear();
-        point_runs.clear();
+        record_runs.clear();
         samples.clear();
         sample_runs.clear();
         sample_tiles.clear();

@@ -51,12 +51,17 @@ template <class Query>
     if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {
         const bool asks_gradients = query.gradients || !query.points.empty();
         const bool draws = technique == Technique::raster || technique == Technique::automatic;
-        if (!draws && asks_gradients && query.gradient == GradientMethod::blended) {
+        const bool asks_blended = asks_gradients && query.gradient == GradientMethod::blended;
+        if (asks_blended && query.on_device) {
+            return "blended gradients of a field that is to stay on the device (on_device)";
+        }
+        if (!draws && asks_blended) {
             return "blended gradients, which are drawn";
         }
     }
     if constexpr (requires { query.on_device; }) {
-        if (technique == Technique::cpu && query.on_device) {
+        const bool keeps = technique == Technique::compute || technique == Technique::automatic;
+        if (!keeps && query.on_device) {
             return "what is to stay on the device (on_device)";
         }
     }

@@ -46,12 +46,11 @@ void RasterWork::clear() {
     for (std::vector<CellGroup>& list : groups) {
         list.clear();
     }
-    for (std::vector<DrawnOverlap>& drawn : overlaps) {
+    for (std::vector<OverlapTile>& drawn : overlaps) {
         drawn.clear();
     }
     watched.clear();
     field_points.clear();
-    hit_words = 0;
 }
 
 void TileBatch::clear() {
@@ -89,7 +88,7 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
         field_tile_of_plan_[i] = static_cast<std::uint32_t>(batch.compute.fields.tiles.size());
         batch.tile_index.push_back(i);
         left_to_cpu_.push_back(false);
-        batch.resident = batch.resident || (tile.kind != TileKind::overlap && query.on_device);
+        batch.resident = batch.resident || (tile.kind == TileKind::field && query.on_device);
         TileData& data = batch.tiles.emplace_back();
         data.atlas_x = tile.place.x;
         data.atlas_y = tile.place.y;
@@ -119,20 +118,12 @@ void TileBatchBuilder::add_drawn_tile(const PlannedQuery& query, const Tile& til
 
 void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& tile,
                                         TileBatch& batch) {
-    switch (tile.kind) {
-        case TileKind::points:
-            left_to_cpu_.back() =
-                !compute_.add_points_tile(query, tile, shapes_, batch.tiles.back(), batch);
-            break;
-        case TileKind::field:
-            compute_.add_field_tile(query, tile, add_field_tile(query, tile, batch), batch.compute);
-            break;
-        case TileKind::overlap:
-            compute_.add_overlap_tile(
-                query, tile,
-                describe_overlap(std::get<IntersectionQuery>(*query.query), tile, batch),
-                batch.compute);
-            break;
+    if (tile.kind == TileKind::field) {
+        compute_.add_field_tile(query, tile, add_field_tile(query, tile, batch), batch.compute);
+    } else {
+        compute_.add_overlap_tile(
+            query, tile, describe_overlap(std::get<IntersectionQuery>(*query.query), tile, batch),
+            batch.compute);
     }
 }
 

@@ -48,12 +48,6 @@ struct OverlapTile {
     bool keeps_hits = false;  ///< the hits of the cells stay on the device
 };
 
-/// An overlap tile that is drawn.
-struct DrawnOverlap : OverlapTile {
-    /// Where the hits of the cells are kept, one word per cell.
-    std::uint32_t first_hit = not_asked;
-};
-
 /// A field tile: where the requested outputs at cells start, in 32-bit words of the field's
 /// read-back.
 struct FieldTile {
@@ -95,10 +89,9 @@ struct RasterWork {
     TileMeshes meshes;
     TileSize extent;  ///< of the atlas that the tiles take
     std::array<std::vector<CellGroup>, group_lists> groups;
-    std::array<std::vector<DrawnOverlap>, intersection_strategies> overlaps;  ///< by strategy
-    std::vector<WatchedTile> watched;  ///< by occlusion query
+    std::array<std::vector<OverlapTile>, intersection_strategies> overlaps;  ///< by strategy
+    std::vector<WatchedTile> watched;                                        ///< by occlusion query
     std::vector<PointData> field_points;
-    std::uint32_t hit_words = 0;  ///< for all overlap tiles whose hits are kept
 
     void clear();
 };
@@ -118,8 +111,7 @@ struct TileBatch {
     std::vector<FieldPointRun> field_point_runs;
     std::uint64_t field_words = 0;           ///< for all fields together
     std::vector<WordRange> field_read_back;  ///< those that the host reads
-    /// Results of points or fields stay on the device; points then include details (PointDetails).
-    bool resident = false;
+    bool resident = false;                   ///< there are fields that stay on the device
     /// A tile batch is either drawn or, by the compute technique, computed; the other work is
     /// empty, and keeps its memory.
     bool by_compute = false;

@@ -94,14 +94,9 @@ void TileBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& t
                                         TileBatch& batch) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
     RasterWork& work = batch.raster;
-    DrawnOverlap drawn{describe_overlap(asked, tile, batch)};
-    if (drawn.keeps_hits) {
-        drawn.first_hit = work.hit_words;
-        work.hit_words += tile.width * tile.height;
-    }
+    const OverlapTile drawn = describe_overlap(asked, tile, batch);
     add_groups(tile, overlap_group_width, overlap_group_height,
-               {drawn.tile, 0, drawn.lists ? 1U : 0U, drawn.first_hit},
-               work.groups[group_list(asked.strategy)]);
+               {drawn.tile, 0, drawn.lists ? 1U : 0U, 0}, work.groups[group_list(asked.strategy)]);
     add_rectangle(tile, work.meshes[overlaps_of(asked.strategy, OverlapStep::clear)]);
     add_overlap_b(query, tile, drawn, batch);
     add_overlap_a(query, tile, drawn, batch);

@@ -119,6 +119,12 @@ void BatchResources::upload_search(const plan::SearchShapes& shapes, const plan:
         search_ = std::make_unique<GivenSearch>(*device_, *layout_);
     }
     search_->upload(shapes, pairs, expected);
+    if (has_resident_outputs_) {
+        updates_.begin();
+        resident_.bind_records(search_->shapes(), search_->found().scratch_part(),
+                               pipelines_->exports().records, updates_);
+        updates_.end();
+    }
     timestamps_.reserve(passes_ + search_->passes());
     is_searching_ = true;
 }

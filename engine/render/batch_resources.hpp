@@ -31,7 +31,6 @@ struct InputParts {
 };
 struct OutputParts {
     std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;
-    std::uint64_t hits = 0;  ///< kept, among the words that stay on the device
 };
 
 /// How the commands reach the device.
@@ -145,12 +144,11 @@ private:
     void copy_input(const TileBatchOnDevice& on_device) const;
     void empty_output(const TileBatchOnDevice& on_device) const;
     void find_copies(const TileBatchOnDevice& on_device);
-    void lay_out_words(std::uint64_t end);
+    void reserve_words(std::uint64_t end);
     void reserve_timestamps();
-    [[nodiscard]] gpu::BufferPart hits_of(std::uint32_t number) const;
     void bind_export();
     void bind_copies();
-    /// The buffer into which a tile batch writes the words of its points and fields.
+    /// The buffer into which a tile batch writes the words of its fields.
     [[nodiscard]] const gpu::MappedBuffer& words_of(const TileBatchOnDevice& on_device) const;
     void bind(std::uint32_t number);
     void bind_input(const TileBatchOnDevice& on_device, graph::BoundResources& resources) const;
@@ -166,8 +164,7 @@ private:
     gpu::MappedBuffer mesh_;
     gpu::MappedBuffer input_;
     gpu::MappedBuffer read_back_;
-    /// Laid out like the read-back, for tile batches whose results stay on the device; followed by
-    /// the hits in the cells of intersections.
+    /// Laid out like the read-back, for tile batches whose results stay on the device.
     gpu::MappedBuffer words_;
     ResidentBuffers resident_;
     bool has_resident_outputs_ = false;

@@ -17,10 +17,6 @@ CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passe
 
 void CompiledGraph::declare_compute(const PipelineSet& passes) {
     const ComputeKey& needs = needs_.compute;
-    if (needs.points) {
-        handles_.results = graph_.import_buffer({"point results", false, true});
-        passes.resolve_points().declare(graph_, handles_.input, handles_.results);
-    }
     if (needs.fields || needs.field_points || needs.overlap) {
         handles_.shapes = graph_.import_buffer({"shapes in tiles", true, false});
     }
@@ -41,7 +37,7 @@ void CompiledGraph::declare_masked(const PipelineSet& passes, passes::Fields::Ou
     const ComputeKey& needs = needs_.compute;
     // The pass that exports samples reads the masks once more.
     handles_.scratch =
-        needs_.keeps_hits
+        needs.keeps_hits
             ? graph_.import_buffer({"scratch"}, {{}, graph::Access::storage_read_in_compute})
             : graph_.import_buffer({"scratch", false, false});
     Handle scratch = handles_.scratch;
@@ -92,12 +88,7 @@ void CompiledGraph::declare_drawn(const RasterPipelines& passes) {
 
 void CompiledGraph::declare_overlaps(const RasterPipelines& passes) {
     handles_.samples = graph_.import_buffer({"samples", true, true});
-    if (needs_.keeps_hits) {
-        // Read once more by the pass that exports samples.
-        handles_.kept_hits =
-            graph_.import_buffer({"kept hits"}, {{}, graph::Access::storage_read_in_compute});
-    }
-    passes::Collect::Output collected{handles_.samples, handles_.kept_hits};
+    Handle samples = handles_.samples;
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         const auto strategy = static_cast<IntersectionStrategy>(i);
         if (!needs_.overlap[i]) {
@@ -105,9 +96,9 @@ void CompiledGraph::declare_overlaps(const RasterPipelines& passes) {
         }
         const Handle hits = passes.intersect.declare(graph_, handles_.mesh, extent_, strategy);
         if (strategy == IntersectionStrategy::stencil || strategy == IntersectionStrategy::depth) {
-            passes.early_out.declare(graph_, collected.samples, strategy);
+            passes.early_out.declare(graph_, samples, strategy);
         }
-        passes.collect.declare(graph_, handles_.input, hits, collected, strategy);
+        passes.collect.declare(graph_, handles_.input, hits, samples, strategy);
     }
 }
 

@@ -20,7 +20,6 @@ struct TileHandles {
     graph::Handle results;        ///< of points
     graph::Handle field;          ///< results of fields
     graph::Handle samples;        ///< in the parts of passes::sample_parts
-    graph::Handle kept_hits;      ///< of the raster technique
 };
 
 /// The baked render graph for one GraphKey and one size of atlas.

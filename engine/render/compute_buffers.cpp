@@ -24,8 +24,8 @@ void copy_to(std::byte* target, const Vectors&... vectors) {
 
 ComputeBuffers::ComputeBuffers(const gpu::Device& device)
     : device_(&device),
-      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
-             "nearfield compute input"),
+      masks_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
+             "nearfield rows of masks"),
       scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                gpu::Direction::none, "nearfield compute scratch"),
       shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
@@ -35,36 +35,16 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
       long_searches_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                      "nearfield long searches") {}
 
-template <class... Vectors>
-gpu::BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
-    const std::uint64_t step =
-        std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_part);
-    const std::uint64_t bytes = (bytes_of(vectors) + ...);
-    require_range(*device_, bytes, what);
-    const gpu::BufferPart part = input_.part((end_ + step - 1) / step * step, bytes);
-    std::byte* target = input_.data() + part.offset;
-    copy_to(target, vectors...);
-    end_ = part.offset + part.bytes;
-    return part;
-}
-
 void ComputeBuffers::upload(const plan::TileBatch& batch) {
     const plan::ComputeWork& work = batch.compute;
-    constexpr std::uint64_t parts = 4;
-    const std::uint64_t between =
-        parts * (device_->limits().minStorageBufferOffsetAlignment + smallest_part);
-    input_.reserve(between + bytes_of(batch.tiles) + bytes_of(batch.points) +
-                   bytes_of(batch.lists.geometry()) + bytes_of(work.overlaps) +
-                   bytes_of(work.field_rows));
+    mask_bytes_ = bytes_of(work.overlaps) + bytes_of(work.field_rows);
+    require_range(*device_, mask_bytes_, "the rows of masks");
+    masks_.reserve(std::max(mask_bytes_, smallest_part));
+    copy_to(masks_.data(), work.overlaps, work.field_rows);
+    masks_.flush();
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
     require_range(*device_, scratch_bytes_, "the masks and lists");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
-    end_ = 0;
-    tiles_ = append("the tiles", batch.tiles);
-    points_ = append("the points", batch.points);
-    edges_ = append("the edges", batch.lists.geometry());
-    masks_ = append("the rows of masks", work.overlaps, work.field_rows);
-    input_.flush();
     shape_bytes_ = 0;
     if (work.shapes != nullptr) {
         upload_shapes(work);
@@ -113,10 +93,7 @@ bool ComputeBuffers::had_long_searches() const {
 }
 
 void ComputeBuffers::bind(const TileHandles& handles, graph::BoundResources& resources) const {
-    resources.set(handles.input, tiles_, passes::input_parts::tiles);
-    resources.set(handles.input, edges_, passes::input_parts::edges);
-    resources.set(handles.input, points_, passes::input_parts::points);
-    resources.set(handles.input, masks_, passes::input_parts::masks);
+    resources.set(handles.input, masks_.part(0, mask_bytes_), passes::input_parts::masks);
     resources.set(handles.scratch, scratch());
     gpu::BufferPart shapes = shapes_.part(0, shape_bytes_);
     shapes.texels = texels_.get();

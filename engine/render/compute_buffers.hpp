@@ -34,17 +34,13 @@ public:
     void bind(const TileHandles& handles, graph::BoundResources& resources) const;
 
 private:
-    /// Copies the contents of vectors, one after the other, into the next part of the input.
-    template <class... Vectors>
-    gpu::BufferPart append(const char* what, const Vectors&... vectors);
     void upload_shapes(const plan::ComputeWork& work);
 
     const gpu::Device* device_;
-    gpu::MappedBuffer input_;
+    gpu::MappedBuffer masks_;  // overlaps and rows of fields
     gpu::MappedBuffer scratch_;
-    std::uint64_t end_ = 0;  // of the data in the input
+    std::uint64_t mask_bytes_ = 0;
     std::uint64_t scratch_bytes_ = 0;
-    gpu::BufferPart tiles_, points_, edges_, masks_;
     gpu::MappedBuffer shapes_;
     gpu::MappedBuffer crowd_;
     gpu::MappedBuffer long_searches_;

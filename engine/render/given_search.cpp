@@ -74,13 +74,6 @@ void GivenSearch::lay_out() {
     memory_.clear_counts();
 }
 
-void GivenSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                         const passes::PairSearch& search) const {
-    for (std::size_t i = 0; i < memory_.parts(); ++i) {
-        search.record(commands, timestamps, memory_.part(i).item());
-    }
-}
-
 void GivenSearch::read_back() {
     memory_.read_counts();
     counts_ = {};

@@ -2,7 +2,6 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/timestamps.hpp>
 #include <engine/plan/point_search.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/render/search_memory.hpp>
@@ -27,9 +26,6 @@ public:
     [[nodiscard]] std::uint32_t passes() const {
         return static_cast<std::uint32_t>(memory_.parts()) * passes::PairSearch::max_passes_of_part;
     }
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                const passes::PairSearch& search) const;
-
     /// Call once the device is done. Throws StatusException (device_error) if it counted more than
     /// there can be.
     void read_back();
@@ -39,8 +35,10 @@ public:
     [[nodiscard]] bool had_room() const { return memory_.had_room(); }
     /// Makes room for what the device counted.
     void grow();
-    /// What it found, by part. Valid after read_back(), with room.
+    /// Its memory, by part; what was found there is valid after read_back(), with room.
     [[nodiscard]] const SearchMemory& found() const { return memory_; }
+    /// What passes bind.
+    [[nodiscard]] gpu::BufferPart shapes() const { return shapes_.part(); }
 
 private:
     void lay_out();

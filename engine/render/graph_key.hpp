@@ -10,12 +10,12 @@ namespace nearfield::render {
 
 /// The outputs that a tile batch of the compute technique needs; all false for one that is drawn.
 struct ComputeKey {
-    bool points = false;
     bool field_values = false;
     bool field_features = false;
     bool field_points = false;  ///< some output at points of a field
     bool fields = false;        ///< values or features of fields
     bool overlap = false;
+    bool keeps_hits = false;  ///< another pass reads the masks of some overlap
 
     friend bool operator==(const ComputeKey&, const ComputeKey&) = default;
 };
@@ -28,8 +28,7 @@ struct GraphKey {
     bool field_points = false;                            ///< some output at points of a field
     bool blended = false;                                 ///< blended gradients
     std::array<bool, intersection_strategies> overlap{};  ///< by strategy
-    bool keeps_hits = false;  ///< another pass reads the hits in the cells of some overlap
-    ComputeKey compute;       ///< compute technique: replaces all but keeps_hits
+    ComputeKey compute;                                   ///< compute technique: replaces all else
 
     [[nodiscard]] bool any_field() const { return field_cells || field_points; }
     [[nodiscard]] bool field_by(SignEncoding encoding) const {

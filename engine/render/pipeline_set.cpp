@@ -31,7 +31,7 @@ RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::Comput
       gradient(device, layout, gradient_render_pass_.get()),
       early_out(device),
       intersect(device, draw_layout_.get(), strategies_, early_out),
-      resolve_points(device, layout, passes::ResolvePoints::Source::images),
+      resolve_points(device, layout),
       resolve_field(device, layout),
       collect(device, layout) {}
 
@@ -65,7 +65,6 @@ void PipelineSet::make(const DeviceTechniques& techniques) const {
         static_cast<void>(raster());
     }
     if (techniques.compute) {
-        static_cast<void>(resolve_points());
         static_cast<void>(masks());
         static_cast<void>(fields());
         static_cast<void>(pair_poses());

@@ -83,9 +83,6 @@ public:
     /// Raster.
     [[nodiscard]] const RasterPipelines& raster() const { return made(raster_); }
     /// Compute, as are those that follow.
-    [[nodiscard]] const passes::ResolvePoints& resolve_points() const {
-        return made(resolve_points_, passes::ResolvePoints::Source::lists);
-    }
     [[nodiscard]] const passes::Masks& masks() const { return made(masks_); }
     [[nodiscard]] const passes::Fields& fields() const { return made(fields_); }
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return made(pair_poses_); }
@@ -116,7 +113,6 @@ private:
     mutable double milliseconds_ = 0.0;
     mutable std::optional<ExportPipelines> exports_;
     mutable std::optional<RasterPipelines> raster_;
-    mutable std::optional<passes::ResolvePoints> resolve_points_;
     mutable std::optional<passes::Masks> masks_;
     mutable std::optional<passes::Fields> fields_;
     mutable std::optional<passes::PairPoses> pair_poses_;

@@ -12,9 +12,7 @@ void BatchResources::lay_out_output() {
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
         const plan::TileBatch& batch = *on_device.batch;
-        const std::uint64_t point_bytes = batch.points.size() *
-                                          (1 + (batch.resident ? plan::words_of_details : 0)) *
-                                          sizeof(std::uint32_t);
+        const std::uint64_t point_bytes = batch.points.size() * sizeof(std::uint32_t);
         const std::uint64_t field_bytes = batch.field_words * sizeof(std::uint32_t);
         const std::uint64_t summary_bytes = batch.tiles.size() * sizeof(plan::TileSummary);
         const std::uint64_t sample_bytes =
@@ -33,7 +31,7 @@ void BatchResources::lay_out_output() {
     read_back_.reserve(stamp_offset_ + sizeof(stamp_));
     std::memset(read_back_.data() + stamp_offset_, 0, sizeof(stamp_));
     copies_.clear();
-    lay_out_words(end);
+    reserve_words(end);
     updates_.begin();
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
@@ -71,31 +69,13 @@ void BatchResources::reserve_timestamps() {
 }
 
 /// `end`: of the tile batches' parts of the read-back.
-void BatchResources::lay_out_words(std::uint64_t end) {
-    bool any_resident = has_resident_outputs_;
-    for (const std::uint32_t number : running_) {
-        TileBatchOnDevice& on_device = tile_batches_[number];
-        const plan::TileBatch& batch = *on_device.batch;
-        const std::uint64_t hit_bytes =
-            std::uint64_t{batch.raster.hit_words} * sizeof(std::uint32_t);
-        require_range(*device_, hit_bytes, "the cells of intersections that stay");
-        any_resident = any_resident || batch.resident || hit_bytes > 0;
-        on_device.output.hits = align(end);
-        end = on_device.output.hits + std::max(hit_bytes, smallest_part);
-    }
-    if (any_resident) {
+void BatchResources::reserve_words(std::uint64_t end) {
+    const bool any_resident =
+        std::any_of(running_.begin(), running_.end(),
+                    [this](std::uint32_t number) { return tile_batches_[number].batch->resident; });
+    if (any_resident || has_resident_outputs_) {
         words_.reserve(std::max(end, smallest_part));
     }
-}
-
-gpu::BufferPart BatchResources::hits_of(std::uint32_t number) const {
-    const TileBatchOnDevice& on_device = tile_batches_[number];
-    const plan::TileBatch& batch = *on_device.batch;
-    if (batch.by_compute) {
-        return compute_[number]->scratch();
-    }
-    return words_.part(on_device.output.hits,
-                       std::uint64_t{batch.raster.hit_words} * sizeof(std::uint32_t));
 }
 
 const gpu::MappedBuffer& BatchResources::words_of(const TileBatchOnDevice& on_device) const {
@@ -107,30 +87,24 @@ void BatchResources::find_copies(const TileBatchOnDevice& on_device) {
     if (!batch.resident) {
         return;
     }
-    const auto copy = [this](std::uint64_t first_byte, std::uint64_t words) {
-        copies_.push_back({first_byte, first_byte, words * sizeof(std::uint32_t)});
-    };
-    if (!batch.points.empty()) {
-        copy(on_device.output.points, batch.points.size());
-    }
     for (const plan::WordRange& range : batch.field_read_back) {
-        copy(on_device.output.field + range.first * sizeof(std::uint32_t), range.count);
+        const std::uint64_t first = on_device.output.field + range.first * sizeof(std::uint32_t);
+        copies_.push_back({first, first, range.count * sizeof(std::uint32_t)});
     }
 }
 
 void BatchResources::bind_export() {
+    const gpu::BufferPart none = words_.part(0, smallest_part);
     export_words_.clear();
     for (std::uint32_t number = 0; number < tile_batches_.size(); ++number) {
         const TileBatchOnDevice& on_device = tile_batches_[number];
         const OutputParts& parts = on_device.output;
         const gpu::MappedBuffer& words = words_of(on_device);
-        export_words_.push_back({words.part(parts.points, parts.field - parts.points),
-                                 words.part(parts.field, parts.summaries - parts.field),
+        export_words_.push_back({words.part(parts.field, parts.summaries - parts.field),
                                  read_back_.part(parts.summaries, parts.samples - parts.summaries),
-                                 hits_of(number),
-                                 static_cast<std::uint32_t>(on_device.batch->points.size())});
+                                 on_device.batch->by_compute ? compute_[number]->scratch() : none});
     }
-    resident_.bind(export_words_, words_.part(0, smallest_part), pipelines_->exports(), updates_);
+    resident_.bind(export_words_, none, pipelines_->exports(), updates_);
 }
 
 void BatchResources::empty_output(const TileBatchOnDevice& on_device) const {
@@ -177,10 +151,9 @@ void BatchResources::bind(std::uint32_t number) {
         compute_[number]->bind(handles, resources);
     } else {
         bind_input(on_device, resources);
-        resources.set(handles.kept_hits, hits_of(number));
     }
     const gpu::MappedBuffer& words = words_of(on_device);
-    resources.set(handles.results, words.part(output.points, output.field - output.points));
+    resources.set(handles.results, read_back_.part(output.points, output.field - output.points));
     resources.set(handles.field, words.part(output.field, output.summaries - output.field));
     resources.set(handles.samples,
                   read_back_.part(output.summaries, output.samples - output.summaries),

@@ -17,18 +17,17 @@ constexpr std::uint32_t min_expected = 4096;
 ComputeKey compute_key_of(const plan::TileBatch& batch) {
     const plan::ComputeWork& work = batch.compute;
     ComputeKey needs;
-    needs.points = !batch.points.empty();
     needs.field_values = work.fields.values;
     needs.field_features = work.fields.features;
     needs.field_points = !work.fields.points.empty();
     needs.fields = work.fields.values || work.fields.features;
     needs.overlap = !work.overlaps.empty();
+    needs.keeps_hits = batch.keeps_hits;
     return needs;
 }
 
 GraphKey key_of(const plan::TileBatch& batch) {
     GraphKey needs;
-    needs.keeps_hits = batch.keeps_hits;
     if (batch.by_compute) {
         needs.compute = compute_key_of(batch);
         return needs;
@@ -151,6 +150,8 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
 void Renderer::prepare_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
                               SampleRoom room, BatchResources& slot, Timings& timings) {
     const Stopwatch start;
+    // What stays on the device is not written again with more room.
+    room = last_had_records_ ? SampleRoom::all : room;
     const double made = pipeline_milliseconds();
     last_had_search_ = !pairs.directions.empty();
     if (last_had_search_) {
@@ -204,9 +205,23 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
         on_device.graph->graph().execute(commands, slot.timestamps(), slot.bound(number), context);
     }
     if (const GivenSearch* const search = slot.running_search()) {
-        search->record(commands, slot.timestamps(), passes_.pair_search(plan::given_pairs));
+        record_search(*search, slot, commands);
     }
     record_exports(slot, commands);
+}
+
+/// The parts take turns with the memory that records are exported from.
+void Renderer::record_search(const GivenSearch& search, BatchResources& slot,
+                             VkCommandBuffer commands) {
+    const SearchMemory& memory = search.found();
+    for (std::size_t i = 0; i < memory.parts(); ++i) {
+        const passes::PairSearch::Item& part = memory.part(i).item();
+        passes_.pair_search(plan::given_pairs).record(commands, slot.timestamps(), part);
+        if (slot.has_resident_outputs()) {
+            slot.resident().record_records(part.push, passes_.exports().records, commands,
+                                           slot.timestamps());
+        }
+    }
 }
 
 void Renderer::record_exports(BatchResources& slot, VkCommandBuffer commands) {
@@ -224,6 +239,7 @@ void Renderer::trim() noexcept {
     graphs_.clear();
     max_counts_ = {};
     max_samples_ = 0;
+    expected_records_ = min_records;
 }
 
 void Renderer::wait(BatchResources& slot, Timings& timings) {

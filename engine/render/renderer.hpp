@@ -11,6 +11,7 @@
 #include <nearfield/context.hpp>
 #include <nearfield/result.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -94,6 +95,13 @@ public:
     /// the others. Returns false if there are none.
     [[nodiscard]] bool submit_those_without_room(BatchResources& slot, Timings& timings);
 
+    /// How many records of one query that stay on the device there is room for, if there can be as
+    /// many: more than any query before has had.
+    [[nodiscard]] std::uint32_t expected_records() const { return expected_records_; }
+    void note_records(std::uint32_t count) {
+        expected_records_ = std::max(expected_records_, count + count / 8);
+    }
+
     /// Drops the compiled graphs, except those of batches in flight, until the next batch.
     void trim() noexcept;
     /// Destroys the views of an image of the host, which no batch on the device may write.
@@ -107,6 +115,7 @@ private:
     [[nodiscard]] std::uint32_t sample_capacity(const plan::TileBatch& batch,
                                                 SampleRoom room) const;
     void record_tile_batches(BatchResources& slot, VkCommandBuffer commands);
+    void record_search(const GivenSearch& search, BatchResources& slot, VkCommandBuffer commands);
     void record_exports(BatchResources& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;
@@ -129,6 +138,8 @@ private:
     std::optional<plan::WorldQuestion> last_question_;
     PairCounts max_counts_{};        // by a search of a batch, reserved for the next
     std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
+    static constexpr std::uint32_t min_records = 16384;
+    std::uint32_t expected_records_ = min_records;
 };
 
 }  // namespace nearfield::render

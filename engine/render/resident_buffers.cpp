@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -25,8 +26,13 @@ std::uint64_t own_bytes(const Output& output, std::uint64_t bytes) {
     return output.target.buffer == VK_NULL_HANDLE ? bytes : 0;
 }
 
-std::uint64_t bytes_of_blocks(const plan::RecordsOutput& records) {
-    return std::uint64_t{records.block_count} * sizeof(plan::RecordBlockData);
+/// The directions of a query take turns.
+std::uint64_t bytes_of_blocks(std::span<const plan::RecordRunOutput> runs) {
+    std::uint32_t most = 0;
+    for (const plan::RecordRunOutput& run : runs) {
+        most = std::max(most, run.blocks);
+    }
+    return std::uint64_t{most} * sizeof(plan::RecordBlockData);
 }
 
 std::uint64_t bytes_of_blocks(const plan::SamplesOutput& samples) {
@@ -123,7 +129,8 @@ void ResidentBuffers::lay_out_buffer() {
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
         const plan::RecordsOutput& records = resident_->records[i];
         require_range(*device_, bytes_of_records(records), "the records");
-        grow(places_, i, own_bytes(records, bytes_of_records(records)), bytes_of_blocks(records));
+        grow(places_, i, own_bytes(records, bytes_of_records(records)),
+             bytes_of_blocks(runs_of(records)));
     }
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
         const plan::SamplesOutput& samples = resident_->samples[i];
@@ -168,23 +175,19 @@ void ResidentBuffers::upload_tables() {
 
 void ResidentBuffers::make_resources(const ExportPipelines& passes) {
     const std::size_t fields = resident_->fields.size();
-    const std::size_t records = resident_->records.size();
     const std::size_t samples = resident_->samples.size();
     bound_fields_.resize(std::max(bound_fields_.size(), fields));
     for (std::size_t i = 0; i < fields; ++i) {
         reserve(bound_fields_[i], resident_->fields[i].part_count, passes.field.graph, *layout_);
     }
-    bound_records_.resize(std::max(bound_records_.size(), records));
-    for (std::size_t i = 0; i < records; ++i) {
-        reserve(bound_records_[i], std::max(resident_->records[i].run_count, 1U),
-                passes.records.graph, *layout_);
-    }
+    reserve(bound_records_, resident_->record_runs.size(), passes.records.graph, *layout_);
     bound_samples_.resize(std::max(bound_samples_.size(), samples));
     for (std::size_t i = 0; i < samples; ++i) {
         reserve(bound_samples_[i], std::max(resident_->samples[i].run_count, 1U),
                 passes.samples.graph, *layout_);
     }
-    reserve(bound_headers_, fields + records + samples, passes.headers.graph, *layout_);
+    reserve(bound_headers_, fields + resident_->records.size() + samples, passes.headers.graph,
+            *layout_);
 }
 
 gpu::BufferPart ResidentBuffers::own_range(const Place& place, std::uint64_t bytes) const {
@@ -237,7 +240,6 @@ void ResidentBuffers::bind_headers(const passes::ExportHeaders& pass,
 void ResidentBuffers::bind(std::span<const Words> words, const gpu::BufferPart& none,
                            const ExportPipelines& passes, graph::DescriptorUpdates& updates) {
     bind_fields(words, passes.field, updates);
-    bind_points(words, none, passes.records, updates);
     bind_samples(words, none, passes.samples, updates);
     bind_headers(passes.headers, updates);
 }
@@ -263,29 +265,24 @@ void ResidentBuffers::bind_fields(std::span<const Words> words, const passes::Ex
     }
 }
 
-void ResidentBuffers::bind_points(std::span<const Words> words, const gpu::BufferPart& none,
-                                  const passes::ExportRecords& passes,
-                                  graph::DescriptorUpdates& updates) {
-    details_.clear();
+void ResidentBuffers::bind_records(const gpu::BufferPart& shapes, const gpu::BufferPart& scratch,
+                                   const passes::ExportRecords& passes,
+                                   graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
         const plan::RecordsOutput& records = resident_->records[i];
         const gpu::BufferPart range = range_of(i, records);
-        const auto bind = [&](std::uint32_t run, const gpu::BufferPart& points) {
-            graph::BoundResources& resources = bound_records_[i][run];
-            resources.set(passes.words, points);
-            resources.set(passes.tables, tables());
-            resources.set(passes.blocks, records_.part(places_[i].blocks, places_[i].block_bytes));
-            resources.set(passes.records, range, uses_of(records.target));
-            updates.add(resources);
-        };
+        std::optional<graph::ExternalUses> uses = uses_of(records.target);
         for (std::uint32_t run = 0; run < records.run_count; ++run) {
-            const plan::PointRunOutput& output = resident_->point_runs[records.first_run + run];
-            bind(run, words[output.tile_batch].points);
-            details_.push_back(words[output.tile_batch].point_count +
-                               plan::words_of_details * output.first);
-        }
-        if (records.run_count == 0) {
-            bind(0, none);
+            graph::BoundResources& resources = bound_records_[records.first_run + run];
+            resources.set(passes.shapes, shapes);
+            resources.set(passes.scratch, scratch);
+            resources.set(passes.blocks, records_.part(places_[i].blocks, places_[i].block_bytes));
+            resources.set(passes.records, range, uses);
+            updates.add(resources);
+            if (uses) {
+                // The other direction follows this one, and not the host.
+                uses->before = {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT};
+            }
         }
     }
 }
@@ -297,10 +294,10 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::Buff
         const plan::SamplesOutput& samples = resident_->samples[i];
         const gpu::BufferPart range = range_of(i, samples);
         const auto bind = [&](std::uint32_t run, const gpu::BufferPart& summaries,
-                              const gpu::BufferPart& hits) {
+                              const gpu::BufferPart& masks) {
             graph::BoundResources& resources = bound_samples_[i][run];
             resources.set(passes.summaries, summaries);
-            resources.set(passes.hits, samples.block_count > 0 ? hits : none);
+            resources.set(passes.masks, samples.block_count > 0 ? masks : none);
             resources.set(passes.tables, tables());
             resources.set(passes.blocks,
                           records_.part(sample_places_[i].blocks, sample_places_[i].block_bytes));
@@ -309,7 +306,7 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::Buff
         };
         for (std::uint32_t run = 0; run < samples.run_count; ++run) {
             const Words& of = words[resident_->sample_runs[samples.first_run + run].tile_batch];
-            bind(run, of.summaries, of.hits);
+            bind(run, of.summaries, of.masks);
         }
         if (samples.run_count == 0) {
             bind(0, none, none);
@@ -319,9 +316,29 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::Buff
 
 std::size_t ResidentBuffers::count_passes(const ExportPipelines& passes) const {
     return resident_->fields.size() * passes.field.graph.passes().size() +
-           resident_->records.size() * passes.records.graph.passes().size() +
+           resident_->record_runs.size() * passes.records.graph.passes().size() +
            resident_->samples.size() * passes.samples.graph.passes().size() +
            passes.headers.graph.passes().size();
+}
+
+void ResidentBuffers::record_records(const plan::SearchPush& part,
+                                     const passes::ExportRecords& passes, VkCommandBuffer commands,
+                                     gpu::Timestamps& timestamps) const {
+    for (const plan::RecordsOutput& records : resident_->records) {
+        for (std::uint32_t i = records.first_run; i < records.first_run + records.run_count; ++i) {
+            const plan::RecordRunOutput& run = resident_->record_runs[i];
+            if (run.direction < part.first_instance || run.direction >= part.end_instance) {
+                continue;
+            }
+            passes::ExportRecords::Input input{part, run.blocks};
+            input.push.first = run.direction - part.first_instance;
+            input.push.flags = run.flags;
+            input.push.capacity = records.capacity;
+            input.push.frame_axis = run.frame_axis;
+            input.push.frame_place = run.frame_place;
+            passes.graph.execute(commands, timestamps, bound_records_[i], input);
+        }
+    }
 }
 
 void ResidentBuffers::record(const ExportPipelines& passes, VkCommandBuffer commands,
@@ -336,15 +353,6 @@ void ResidentBuffers::record(const ExportPipelines& passes, VkCommandBuffer comm
                     &field,
                     std::span(resident_->field_parts).subspan(field.first_part, field.part_count),
                     bound_fields_[i]});
-    }
-    for (std::size_t i = 0; i < resident_->records.size(); ++i) {
-        const plan::RecordsOutput& records = resident_->records[i];
-        execute(passes.records.graph,
-                passes::ExportRecords::Input{
-                    &records,
-                    std::span(resident_->point_runs).subspan(records.first_run, records.run_count),
-                    std::span(details_).subspan(records.first_run, records.run_count),
-                    bound_records_[i]});
     }
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
         const plan::SamplesOutput& samples = resident_->samples[i];

@@ -33,18 +33,24 @@ public:
     /// outputs.
     void upload(const plan::ResidentOutputs& resident, const ExportPipelines& passes);
 
-    /// Where a tile batch writes the words of its points (with their details) and of its fields,
-    /// the summaries of its tiles, and the hits in the cells of intersections.
+    /// Where a tile batch writes the words of its fields, the summaries of its tiles, and the masks
+    /// of intersections.
     struct Words {
-        gpu::BufferPart points, field, summaries, hits;
-        std::uint32_t point_count = 0;
+        gpu::BufferPart field, summaries, masks;
     };
-    /// Binds what the passes use, and adds it to the updates: the words, by tile batch; `none`: any
-    /// part of the buffer that holds the words of points and fields.
+    /// Binds what the passes use, but for records, and adds it to the updates: the words, by tile
+    /// batch; `none`: any part of the buffer that holds the words of fields.
     void bind(std::span<const Words> words, const gpu::BufferPart& none,
               const ExportPipelines& passes, graph::DescriptorUpdates& updates);
+    /// The same of records, from the shapes and the scratch memory of a search.
+    void bind_records(const gpu::BufferPart& shapes, const gpu::BufferPart& scratch,
+                      const passes::ExportRecords& passes, graph::DescriptorUpdates& updates);
     [[nodiscard]] std::size_t count_passes(const ExportPipelines& passes) const;
-    /// Records the passes, once bound.
+    /// Records the passes of the records that a part of the search has found, once bound. `part`:
+    /// its push constants.
+    void record_records(const plan::SearchPush& part, const passes::ExportRecords& passes,
+                        VkCommandBuffer commands, gpu::Timestamps& timestamps) const;
+    /// Records the other passes, once bound.
     void record(const ExportPipelines& passes, VkCommandBuffer commands,
                 gpu::Timestamps& timestamps) const;
 
@@ -73,6 +79,10 @@ private:
         std::uint64_t block_bytes = 0;   ///< reserved
     };
 
+    [[nodiscard]] std::span<const plan::RecordRunOutput> runs_of(
+        const plan::RecordsOutput& records) const {
+        return std::span(resident_->record_runs).subspan(records.first_run, records.run_count);
+    }
     void reserve_images();
     void find_views();
     /// Where the summary of records or samples and what follows it lie.
@@ -96,8 +106,6 @@ private:
     }
     void bind_fields(std::span<const Words> words, const passes::ExportField& pass,
                      graph::DescriptorUpdates& updates);
-    void bind_points(std::span<const Words> words, const gpu::BufferPart& none,
-                     const passes::ExportRecords& passes, graph::DescriptorUpdates& updates);
     void bind_samples(std::span<const Words> words, const gpu::BufferPart& none,
                       const passes::ExportSamples& passes, graph::DescriptorUpdates& updates);
     [[nodiscard]] OutputState state(graph::Access access) const;
@@ -117,12 +125,11 @@ private:
     std::vector<Place> sample_places_;             // by samples
     bool are_laid_out_ = false;                    // all places, and there is memory for them
     std::uint64_t revision_ = 0;                   // see OutputSlot
-    std::vector<std::uint32_t> details_;           // by run of points
     std::vector<plan::ExportHeaderPush> headers_;  // of fields, records, samples
     // What passes bind, and more of it that an earlier batch had.
     using Bound = std::vector<graph::BoundResources>;
     std::vector<Bound> bound_fields_;   // by field and part
-    std::vector<Bound> bound_records_;  // by records and run, at least one
+    Bound bound_records_;               // by run
     std::vector<Bound> bound_samples_;  // by samples and run, at least one
     Bound bound_headers_;               // by header
 };

@@ -156,6 +156,12 @@ public:
     [[nodiscard]] std::size_t parts() const { return memories_.size(); }
     [[nodiscard]] const PairPartMemory& part(std::size_t i) const { return *memories_[i]; }
     [[nodiscard]] VkDescriptorSet set_of_instances() const { return sets_[0]; }
+    /// What passes bind of the scratch memory.
+    [[nodiscard]] gpu::BufferPart scratch_part() const {
+        gpu::BufferPart part = scratch_.part(0, scratch_bytes_);
+        part.texels = scratch_texels_.get();
+        return part;
+    }
     [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
     [[nodiscard]] std::uint64_t scratch_bytes() const { return scratch_bytes_; }
     [[nodiscard]] VkBufferView scratch_texels() const { return scratch_texels_.get(); }

@@ -1,55 +1,60 @@
 #include <engine/localize/hierarchy.hpp>
-#include <engine/records/boundary_normal.hpp>
+#include <engine/plan/search_shapes.hpp>
 #include <engine/resident/resident_outputs_builder.hpp>
 #include <engine/resident/resident_tables.hpp>
 #include <nearfield/on_device.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace nearfield::resident {
 namespace {
 
-using geometry::Box;
 using geometry::TransformedPolygon;
 using geometry::Vector;
 using plan::PlannedQuery;
 using plan::RecordsOutput;
 using plan::ResidentOutputs;
+using plan::vec2;
 
-std::uint32_t as_snorm(double number) {
-    const auto steps =
-        static_cast<std::int32_t>(std::lround(std::clamp(number, -1.0, 1.0) * 32767));
-    return static_cast<std::uint32_t>(steps) & 0xffffU;
-}
-
-/// Grows `box` to contain the points of a query, or of one direction of it.
-void extend_by_points(const plan::Plan& plan, const PlannedQuery& planned, Box& box) {
-    const TransformedPolygon a(*planned.a, planned.pose_a);
-    const plan::PlannedPoints& points = planned.points();
-    for (std::uint32_t i = points.first; i < points.end(); ++i) {
-        box.extend(position(a, plan.points[i].point));
+template <class Query>
+const BufferTarget* target_of(const Query& query) {
+    if constexpr (std::is_same_v<Query, PenetrationQuery> || std::is_same_v<Query, ContactQuery>) {
+        return query.target;
     }
+    return nullptr;
 }
 
 /// How far the device's numbers may differ from exact ones (docs/resident_results.md): single
-/// precision for lengths up to the extent of points, boundary and a tile.
-double error_of_records(const PlannedQuery& planned, const Box& points) {
-    const TransformedPolygon a(*planned.a, planned.pose_a);
-    const TransformedPolygon b(*planned.b, planned.pose_b);
-    const double extent = points.merged(a.box()).merged(b.box()).diagonal().norm();
-    constexpr double tile = 64.0;
-    return std::ldexp(extent + tile * planned.budget.cell, -19) +
-           4.0 * (localize::placement_rounding(a, a.box()) +
-                  localize::placement_rounding(b, b.box()));
+/// precision for lengths up to the extent of both shapes.
+double error_of_records(const TransformedPolygon& a, const TransformedPolygon& b) {
+    const double extent =
+        a.polygon().radius() + b.polygon().radius() + (a.translation() - b.translation()).norm();
+    return std::ldexp(extent, -18) + 4.0 * (localize::placement_rounding(a, a.box()) +
+                                            localize::placement_rounding(b, b.box()));
+}
+
+vec2 rounded(const Vector& vector) {
+    return {static_cast<float>(vector.x()), static_cast<float>(vector.y())};
+}
+
+/// Of points that the search looks at, at most: the threads of a direction, and of each of its
+/// blocks of edges, may have room for a few more.
+std::uint32_t blocks_of(const plan::SearchedQuery& searched) {
+    const double parts = 2.0 + static_cast<double>(searched.a->size()) / plan::search_block;
+    const double points = searched.max_points + (plan::points_per_thread - 1.0) * parts;
+    return static_cast<std::uint32_t>(points / plan::points_per_block) + 1;
 }
 
 }  // namespace
 
 void ResidentOutputsBuilder::build(const plan::Plan& plan,
                                    std::span<const plan::TileBatch> tile_batches,
-                                   std::span<const AnyResult> results, ResidentOutputs& resident) {
+                                   std::span<const AnyResult> results, std::uint32_t room,
+                                   ResidentOutputs& resident) {
     resident.clear();
+    searched_ = 0;
     find_field_parts(plan, tile_batches);
     samples_.begin();
     for (const std::uint32_t query : plan.resident) {
@@ -63,7 +68,7 @@ void ResidentOutputsBuilder::build(const plan::Plan& plan,
         } else if (const auto* const overlap = std::get_if<IntersectionResult>(&results[query])) {
             samples_.add(plan, tile_batches, query, *overlap, resident);
         } else {
-            add_records(plan, tile_batches, query, resident);
+            add_records(plan, query, room, resident);
         }
     }
 }
@@ -128,91 +133,44 @@ void ResidentOutputsBuilder::add_field(const PlannedQuery& planned, std::uint32_
     field.part_count = static_cast<std::uint32_t>(resident.field_parts.size()) - field.first_part;
 }
 
-void ResidentOutputsBuilder::add_records(const plan::Plan& plan,
-                                         std::span<const plan::TileBatch> tile_batches,
-                                         std::uint32_t query, ResidentOutputs& resident) {
+void ResidentOutputsBuilder::add_records(const plan::Plan& plan, std::uint32_t query,
+                                         std::uint32_t room, ResidentOutputs& resident) {
     const PlannedQuery& planned = plan.queries[query];
-    const std::uint32_t other = planned.points().reverse;
-    const PlannedQuery* const reverse =
-        other == plan::PlannedPoints::none ? nullptr : &plan.queries[other];
-    Box box;
-    extend_by_points(plan, planned, box);
-    if (reverse != nullptr) {
-        extend_by_points(plan, *reverse, box);
-    }
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
     RecordsOutput& records = resident.records.emplace_back();
     records.query = query;
     records.cell = planned.budget.cell;
-    // Whole, so that rounding of the sum costs no point; and within 64 bits, in bytes.
-    records.max_capacity = std::min(
-        std::ceil(plan::max_points(planned) + (reverse == nullptr ? 0.0 : max_points(*reverse))),
-        std::ldexp(1.0, 53));
-    records.error_bound = error_of_records(planned, box);
-    records.first_run = static_cast<std::uint32_t>(resident.point_runs.size());
-    if (!box.isEmpty()) {
-        records.origin = box.center();
+    records.error_bound = error_of_records(a, b);
+    records.origin = b.translation();
+    records.first_run = static_cast<std::uint32_t>(resident.record_runs.size());
+    const auto add = [&](std::uint32_t direction, const TransformedPolygon& in) {
+        const auto found = std::find_if(
+            plan.searched.begin() + searched_, plan.searched.end(),
+            [direction](const plan::SearchedQuery& one) { return one.query == direction; });
+        searched_ = static_cast<std::uint32_t>(found - plan.searched.begin());
+        plan::RecordRunOutput& run = resident.record_runs.emplace_back();
+        run.direction = searched_;
+        run.blocks = blocks_of(*found);
+        run.flags = records.run_count == 0 ? 0 : point_flags::on_b;
+        run.frame_axis = rounded(plan::unit_length_of(in.polygon()) * in.rotation().col(0));
+        run.frame_place = rounded(in.translation() - records.origin);
+        records.max_capacity += static_cast<std::uint32_t>(std::ceil(found->max_points));
+        ++records.run_count;
+    };
+    add(query, b);
+    if (const std::uint32_t reverse = planned.points().reverse;
+        reverse != plan::PlannedPoints::none) {
+        add(reverse, a);
     }
-    const BufferTarget* target = nullptr;
-    if (const auto* const contacts = std::get_if<ContactQuery>(planned.query)) {
-        records.near = static_cast<float>(contacts->contact_distance);
-        target = contacts->target;
-    } else {
-        target = std::get<PenetrationQuery>(*planned.query).target;
-    }
+    const BufferTarget* const target =
+        std::visit([](const auto& asked) { return target_of(asked); }, *planned.query);
     if (target != nullptr) {
         records.target = *target;
+        const std::uint64_t fits = (target->size - sizeof(SummaryData)) / sizeof(RecordData);
+        room = static_cast<std::uint32_t>(std::min<std::uint64_t>(fits, UINT32_MAX));
     }
-    add_runs(plan, tile_batches, planned, 0, resident);
-    if (reverse != nullptr) {
-        b_.reset();
-        add_runs(plan, tile_batches, *reverse, point_flags::on_b, resident);
-    }
-}
-
-void ResidentOutputsBuilder::add_runs(const plan::Plan& plan,
-                                      std::span<const plan::TileBatch> tile_batches,
-                                      const PlannedQuery& planned, std::uint32_t flags,
-                                      ResidentOutputs& resident) {
-    RecordsOutput& records = resident.records.back();
-    const std::uint32_t first_place = records.capacity;
-    const TransformedPolygon a(*planned.a, planned.pose_a);
-    const plan::PlannedPoints& points = planned.points();
-    plan::PointRunOutput run;
-    run.rings = add_rings(*planned.b, resident);
-    run.flags = flags;
-    for (run.tile_batch = 0; run.tile_batch < tile_batches.size(); ++run.tile_batch) {
-        const std::vector<std::uint32_t>& index = tile_batches[run.tile_batch].point_index;
-        const auto begin = std::lower_bound(index.begin(), index.end(), points.first);
-        const auto end = std::lower_bound(begin, index.end(), points.end());
-        if (begin == end) {
-            continue;
-        }
-        run.first = static_cast<std::uint32_t>(begin - index.begin());
-        run.count = static_cast<std::uint32_t>(end - begin);
-        run.first_block = records.block_count;
-        run.table = static_cast<std::uint32_t>(resident.tables.size());
-        for (auto i = begin; i != end; ++i) {
-            const plan::BoundaryPoint& point = plan.points[*i].point;
-            const Vector place = position(a, point) - records.origin;
-            add_position(place, resident);
-            resident.tables.push_back(flags == 0 ? 0U : normal_at(planned, point));
-            resident.tables.push_back(first_place + *i - points.first);
-        }
-        records.block_count += run.blocks();
-        records.capacity += run.count;
-        ++records.run_count;
-        resident.point_runs.push_back(run);
-    }
-}
-
-/// The normal at a point of B's boundary, for queries about B's points in the field of A.
-std::uint32_t ResidentOutputsBuilder::normal_at(const PlannedQuery& planned,
-                                                const plan::BoundaryPoint& point) {
-    if (!b_) {
-        boundary_.set(b_.emplace(*planned.a, planned.pose_a));
-    }
-    const Vector normal = records::outward_normal_at(boundary_, point);
-    return as_snorm(normal.x()) | as_snorm(normal.y()) << 16U;
+    records.capacity = std::min(room, records.max_capacity);
 }
 
 }  // namespace nearfield::resident

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <engine/narrowphase/boundary.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
@@ -8,7 +7,6 @@
 #include <nearfield/result.hpp>
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,26 +17,22 @@ namespace nearfield::resident {
 /// what the device needs to export them. Keeps its scratch memory.
 class ResidentOutputsBuilder {
 public:
-    /// `results` state which queries were rejected.
+    /// `results` state which queries were rejected. `room`: for so many records of a query, unless
+    /// there cannot be as many, or they go to a buffer of the host's.
     void build(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches,
-               std::span<const AnyResult> results, plan::ResidentOutputs& resident);
+               std::span<const AnyResult> results, std::uint32_t room,
+               plan::ResidentOutputs& resident);
 
 private:
     void find_field_parts(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches);
     void add_field(const plan::PlannedQuery& planned, std::uint32_t query,
                    const DistanceFieldResult& result, plan::ResidentOutputs& resident);
-    void add_records(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches,
-                     std::uint32_t query, plan::ResidentOutputs& resident);
-    void add_runs(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches,
-                  const plan::PlannedQuery& planned, std::uint32_t flags,
-                  plan::ResidentOutputs& resident);
-    [[nodiscard]] std::uint32_t normal_at(const plan::PlannedQuery& planned,
-                                          const plan::BoundaryPoint& point);
+    void add_records(const plan::Plan& plan, std::uint32_t query, std::uint32_t room,
+                     plan::ResidentOutputs& resident);
 
     ResidentSamplesBuilder samples_;
     std::vector<std::pair<std::uint32_t, plan::FieldPartOutput>> parts_;  // with their query
-    std::optional<geometry::TransformedPolygon> b_;                       // for contacts
-    narrowphase::Boundary boundary_;                                      // of B, where it is set
+    std::uint32_t searched_ = 0;                                          // passed so far
 };
 
 }  // namespace nearfield::resident

@@ -35,16 +35,6 @@ double error_of_samples(const plan::PlannedQuery& planned, const Box& box, bool 
                                4.0 * localize::placement_rounding(a, a.box());
 }
 
-void add_vertices(const plan::PlannedQuery& planned, SamplesOutput& samples,
-                  ResidentOutputs& resident) {
-    const TransformedPolygon a(*planned.a, planned.pose_a);
-    samples.rings = add_rings(*planned.a, resident);
-    samples.vertices = static_cast<std::uint32_t>(resident.tables.size());
-    for (std::uint32_t i = 0; i < planned.a->size(); ++i) {
-        add_position(a.vertex(i) - samples.origin, resident);
-    }
-}
-
 /// Sets the position of a tile's cells.
 void place(const plan::Tile& tile, const Vector& origin, SampleTileData& data) {
     const Vector corner = tile.origin() - origin;
@@ -78,67 +68,43 @@ void ResidentSamplesBuilder::add(const plan::Plan& plan,
     if (!box.isEmpty()) {
         samples.origin = box.center();
     }
-    if (by_edge && planned.technique == Technique::raster) {
-        add_vertices(planned, samples, resident);
-    }
-    add_tiles(plan, tile_batches, asked, resident);
+    add_tiles(plan, asked, resident);
 }
 
 void ResidentSamplesBuilder::find_tiles(const plan::Plan& plan,
                                         std::span<const plan::TileBatch> tile_batches) {
     is_found_ = true;
     tiles_.clear();
-    run_tables_.assign(tile_batches.size(), plan::no_word);
-    FoundTile found;
-    for (found.tile_batch = 0; found.tile_batch < tile_batches.size(); ++found.tile_batch) {
-        const plan::TileBatch& batch = tile_batches[found.tile_batch];
-        if (batch.by_compute) {
-            find_masks(plan, batch, found);
-        } else {
-            find_drawn(plan, batch, found);
-        }
+    for (std::uint32_t number = 0; number < tile_batches.size(); ++number) {
+        find_masks(plan, tile_batches[number], number);
     }
     // By query, then region, row and column: the order in which tiles were cut.
     std::sort(tiles_.begin(), tiles_.end(),
               [](const FoundTile& i, const FoundTile& j) { return i.index < j.index; });
 }
 
-void ResidentSamplesBuilder::find_drawn(const plan::Plan& plan, const plan::TileBatch& batch,
-                                        FoundTile found) {
-    for (const std::vector<plan::DrawnOverlap>& overlaps : batch.raster.overlaps) {
-        for (const plan::DrawnOverlap& drawn : overlaps) {
-            found.index = batch.tile_index[drawn.tile];
-            if (plan.queries[plan.tiles[found.index].query].on_device) {
-                found.data.summary = drawn.tile;
-                found.data.hits = drawn.first_hit;
-                tiles_.push_back(found);
-            }
-        }
-    }
-}
-
 void ResidentSamplesBuilder::find_masks(const plan::Plan& plan, const plan::TileBatch& batch,
-                                        FoundTile found) {
+                                        std::uint32_t number) {
     const plan::ComputeWork& work = batch.compute;
     for (const plan::OverlapData& overlap : work.overlaps) {
-        found.index = batch.tile_index[overlap.tile];
-        if (plan.queries[plan.tiles[found.index].query].on_device) {
+        const std::uint32_t index = batch.tile_index[overlap.tile];
+        if (plan.queries[plan.tiles[index].query].on_device) {
+            FoundTile& found = tiles_.emplace_back();
+            found.index = index;
+            found.tile_batch = number;
             found.data.summary = overlap.tile;
-            found.data.hits = overlap.mask_b;
             found.data.mask_a = overlap.mask_a;
-            found.data.words_per_row = ((overlap.size & 0xffffU) + 31) / 32;
-            found.data.runs =
+            found.data.mask_b = overlap.mask_b;
+            found.data.edges =
                 overlap.first_edge == plan::no_edges
                     ? plan::no_word
                     : static_cast<std::uint32_t>(work.mask_words) + overlap.first_edge;
-            tiles_.push_back(found);
         }
     }
 }
 
-void ResidentSamplesBuilder::add_tiles(const plan::Plan& plan,
-                                       std::span<const plan::TileBatch> tile_batches,
-                                       const IntersectionQuery& asked, ResidentOutputs& resident) {
+void ResidentSamplesBuilder::add_tiles(const plan::Plan& plan, const IntersectionQuery& asked,
+                                       ResidentOutputs& resident) {
     SamplesOutput& samples = resident.samples.back();
     const auto query_of = [&](const FoundTile& tile) { return plan.tiles[tile.index].query; };
     const auto first =
@@ -162,13 +128,9 @@ void ResidentSamplesBuilder::add_tiles(const plan::Plan& plan,
             ++samples.run_count;
         }
         place(plan.tiles[tile->index], samples.origin, tile->data);
-        if (samples.rings.count > 0) {
-            tile->data.run_table = run_table(tile_batches, tile->tile_batch, resident);
-        }
         resident.sample_tiles.push_back(tile->data);
         ++resident.sample_runs.back().tile_count;
     }
-    // Contiguous, behind the edge tables that the tiles refer to.
     for (std::uint32_t i = 0; i < samples.run_count; ++i) {
         plan::SampleRunOutput& run = resident.sample_runs[samples.first_run + i];
         run.table = static_cast<std::uint32_t>(resident.tables.size());
@@ -198,18 +160,6 @@ void ResidentSamplesBuilder::place_blocks(const plan::Plan& plan, std::span<Foun
         samples.block_count += beside * leader.height;
         first = end;
     }
-}
-
-std::uint32_t ResidentSamplesBuilder::run_table(std::span<const plan::TileBatch> tile_batches,
-                                                std::uint32_t number, ResidentOutputs& resident) {
-    std::uint32_t& table = run_tables_[number];
-    if (table == plan::no_word) {
-        table = static_cast<std::uint32_t>(resident.tables.size());
-        for (const plan::EdgeRun& run : tile_batches[number].runs) {
-            add_words(run, resident);
-        }
-    }
-    return table;
 }
 
 }  // namespace nearfield::resident

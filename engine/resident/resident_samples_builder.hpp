@@ -31,18 +31,14 @@ private:
     };
 
     void find_tiles(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches);
-    void find_drawn(const plan::Plan& plan, const plan::TileBatch& batch, FoundTile found);
-    void find_masks(const plan::Plan& plan, const plan::TileBatch& batch, FoundTile found);
-    void add_tiles(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches,
-                   const IntersectionQuery& asked, plan::ResidentOutputs& resident);
+    void find_masks(const plan::Plan& plan, const plan::TileBatch& batch, std::uint32_t number);
+    void add_tiles(const plan::Plan& plan, const IntersectionQuery& asked,
+                   plan::ResidentOutputs& resident);
     void place_blocks(const plan::Plan& plan, std::span<FoundTile> tiles,
                       plan::SamplesOutput& samples) const;
-    [[nodiscard]] std::uint32_t run_table(std::span<const plan::TileBatch> tile_batches,
-                                          std::uint32_t number, plan::ResidentOutputs& resident);
 
     bool is_found_ = false;
-    std::vector<FoundTile> tiles_;           // of all resident intersections
-    std::vector<std::uint32_t> run_tables_;  // by tile batch; no_word where it has none yet
+    std::vector<FoundTile> tiles_;  // of all resident intersections
 };
 
 }  // namespace nearfield::resident

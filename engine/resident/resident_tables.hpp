@@ -1,7 +1,6 @@
 #pragma once
 
 #include <engine/geometry/polygon.hpp>
-#include <engine/geometry/vector.hpp>
 #include <engine/plan/resident_outputs.hpp>
 
 #include <array>
@@ -17,12 +16,6 @@ void add_words(const Structure& structure, plan::ResidentOutputs& resident) {
     using Words = std::array<std::uint32_t, sizeof(Structure) / sizeof(std::uint32_t)>;
     const auto words = std::bit_cast<Words>(structure);
     resident.tables.insert(resident.tables.end(), words.begin(), words.end());
-}
-
-/// Appends a position as two floats.
-inline void add_position(const geometry::Vector& position, plan::ResidentOutputs& resident) {
-    add_words(std::array{static_cast<float>(position.x()), static_cast<float>(position.y())},
-              resident);
 }
 
 /// Appends the rings of a polygon.

@@ -49,16 +49,14 @@ NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, count);
 NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, capacity);
 NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, deepest);
 NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, depth);
-NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, low);
-NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, high);
 
 NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, point);
 NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, nearest);
 NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, normal);
 NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, distance);
 NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, feature);
+NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, edge);
 NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, flags);
-NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, place);
 
 NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, count);
 NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, capacity);
@@ -82,14 +80,6 @@ NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, count_of_b);
 NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, deepest);
 NEARFIELD_SAME_MEMBER(PairData, NearfieldPair, depth);
 
-NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, point);
-NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, nearest);
-NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, normal);
-NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, distance);
-NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, feature);
-NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, edge);
-NEARFIELD_SAME_MEMBER(PairRecordData, NearfieldPairRecord, flags);
-
 #undef NEARFIELD_SAME_MEMBER
 
 #define NEARFIELD_SAME_CONSTANT(ours, theirs) \
@@ -101,7 +91,7 @@ NEARFIELD_SAME_CONSTANT(feature_bits::unique, nearfield_unique_flag);
 NEARFIELD_SAME_CONSTANT(feature_bits::inside, nearfield_inside_flag);
 NEARFIELD_SAME_CONSTANT(point_flags::on_b, nearfield_on_b_flag);
 NEARFIELD_SAME_CONSTANT(point_flags::touching, nearfield_touching_flag);
-NEARFIELD_SAME_CONSTANT(pair_flags::touching, nearfield_touching_flag);
+NEARFIELD_SAME_CONSTANT(point_flags::undecided, nearfield_undecided_flag);
 NEARFIELD_SAME_CONSTANT(pair_flags::undecided, nearfield_undecided_flag);
 NEARFIELD_SAME_CONSTANT(pair_flags::uncertain, nearfield_uncertain_flag);
 NEARFIELD_SAME_CONSTANT(pair_flags::intersects, nearfield_intersects_flag);

@@ -14,8 +14,9 @@ const uint nearfield_unique_flag = 1u << 30;     // no other part of the boundar
 const uint nearfield_inside_flag = 1u << 31;     // the point lies inside the shape
 
 // NearfieldRecord::flags
-const uint nearfield_on_b_flag = 1u;        // a contact on B's boundary; otherwise a point on A's
+const uint nearfield_on_b_flag = 1u;        // of a batch: on B's boundary; otherwise on A's
 const uint nearfield_touching_flag = 2u;    // too near the boundary to tell inside from outside
+const uint nearfield_undecided_flag = 4u;   // something else may be as near; also of a NearfieldPair
 
 const uint nearfield_no_record = 0xffffffffu;
 
@@ -34,22 +35,21 @@ struct NearfieldHeader {
 };
 
 struct NearfieldSummary {
-    uint count;     // number of records
-    uint capacity;  // reserved number of records; never less than count
+    uint count;     // number of records that were found; more than the capacity are not stored
+    uint capacity;  // reserved number of records; 0 if the search itself had no room
     uint deepest;   // the record of the greatest depth; nearfield_no_record if there is none
     float depth;    // its depth: distance to the boundary inside, negative outside
-    vec2 low;       // the smallest box that holds all records' points, if any;
-    vec2 high;      // relative to the origin
 };
 
+// Of a query of a batch, behind a NearfieldSummary; or of the pairs of a world.
 struct NearfieldRecord {
-    vec2 point;      // on the boundary of A, or of B (nearfield_on_b_flag); relative to the origin
+    vec2 point;      // on the boundary of the one shape; relative to the origin
     vec2 nearest;    // nearest point of the other shape's boundary; relative to the origin
-    vec2 normal;     // unit: gradient of B's signed distance; at a point inside B, the way out
+    vec2 normal;     // unit: out of the other shape; with nearfield_touching_flag that of the edge
     float distance;  // from `point` to `nearest`
-    uint feature;    // id of the feature that `nearest` lies on
+    uint feature;    // id of the edge that `nearest` lies on
+    uint edge;       // that `point` lies on
     uint flags;
-    uint place;      // index among the points examined, along A's rings, then B's
 };
 
 const uint nearfield_no_edge = 0xffffffffu;
@@ -70,8 +70,7 @@ struct NearfieldIntersectionSample {
     uint region;  // the region that the cell belongs to
 };
 
-// NearfieldPair::flags and NearfieldPairRecord::flags; a record may also have nearfield_touching_flag
-const uint nearfield_undecided_flag = 4u;    // whether the pair is hit, or what is nearest, is open
+// NearfieldPair::flags; with nearfield_undecided_flag it is open whether the pair is hit
 const uint nearfield_uncertain_flag = 8u;    // it is, but count and deepest record are not certain
 const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
 
@@ -87,16 +86,6 @@ struct NearfieldPair {
     uint count_of_b;
     uint deepest;       // penetrations: the record of the greatest depth, or nearfield_no_record
     float depth;        // its depth
-};
-
-struct NearfieldPairRecord {
-    vec2 point;      // on the boundary of the one shape; relative to the origin
-    vec2 nearest;    // nearest point of the other shape's boundary; relative to the origin
-    vec2 normal;     // unit: out of the other shape; (0, 0) with nearfield_touching_flag
-    float distance;  // from `point` to `nearest`
-    uint feature;    // id of the edge that `nearest` lies on
-    uint edge;       // that `point` lies on
-    uint flags;
 };
 
 #ifndef __cplusplus  // the declarations above are C++, too

@@ -13,8 +13,9 @@ static const uint nearfield_unique_flag = 1u << 30;    // no other part of the b
 static const uint nearfield_inside_flag = 1u << 31;    // the point lies inside the shape
 
 // NearfieldRecord::flags
-static const uint nearfield_on_b_flag = 1u;      // a contact on B's boundary; otherwise on A's
-static const uint nearfield_touching_flag = 2u;  // too near to tell inside from outside
+static const uint nearfield_on_b_flag = 1u;       // of a batch: on B's boundary; otherwise on A's
+static const uint nearfield_touching_flag = 2u;   // too near to tell inside from outside
+static const uint nearfield_undecided_flag = 4u;  // something else may be as near; also of a pair
 
 static const uint nearfield_no_record = 0xffffffffu;
 static const uint nearfield_no_edge = 0xffffffffu;
@@ -36,8 +37,6 @@ struct NearfieldSummary {
     uint capacity;
     uint deepest;  // nearfield_no_record if there is none
     float depth;
-    float2 low;
-    float2 high;
 };
 
 struct NearfieldRecord {
@@ -46,8 +45,8 @@ struct NearfieldRecord {
     float2 normal;
     float distance;
     uint feature;
+    uint edge;
     uint flags;
-    uint place;
 };
 
 struct NearfieldIntersectionSummary {
@@ -65,8 +64,7 @@ struct NearfieldIntersectionSample {
     uint region;
 };
 
-// NearfieldPair::flags and NearfieldPairRecord::flags; a record may also have nearfield_touching_flag
-static const uint nearfield_undecided_flag = 4u;    // whether it is hit, or what is nearest, is open
+// NearfieldPair::flags; with nearfield_undecided_flag it is open whether it is hit
 static const uint nearfield_uncertain_flag = 8u;    // count and deepest record are not certain
 static const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
 
@@ -81,16 +79,6 @@ struct NearfieldPair {
     uint count_of_b;
     uint deepest;  // nearfield_no_record if there is none
     float depth;
-};
-
-struct NearfieldPairRecord {
-    float2 position;  // `point` in GLSL, a word of HLSL
-    float2 nearest;
-    float2 normal;
-    float distance;
-    uint feature;
-    uint edge;
-    uint flags;
 };
 
 #ifndef __cplusplus  // the declarations above are C++, too

@@ -93,7 +93,8 @@ struct FieldTarget {
 
 /// Where points on the device or samples go (PenetrationQuery::target and others): a range of a
 /// buffer of the host's, on the context's device. Only as much is written as on_device() states.
-/// The header stays nearfield's own. Borrowed until the batch is collected; nothing is kept of it.
+/// The header stays nearfield's own; it and the query's result (StatusCode::overflow) tell of more
+/// records than there is space for. Borrowed until the batch is collected; nothing is kept of it.
 struct BufferTarget {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< not null
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
@@ -167,36 +168,32 @@ struct FieldOnDevice {
 /// (RecordData); the summary has their number. The buffer may be bound as a storage buffer at this
 /// offset, or as a vertex or indirect buffer, and copied from.
 ///
-/// Records are in the order of their points: along A's rings, then, for contacts, along B's. If the
-/// batch takes several tile batches (more tiles than one atlas holds), that order holds within
-/// each. The CPU does not know the number of records before the batch is collected. There is space
-/// for every point examined, so no record is ever dropped.
+/// Records are in the order of their points: along A's rings, then, for contacts, along B's. The
+/// CPU does not know their number before the batch is collected. Where there are more than there is
+/// space for, the header says so (HeaderData::overflow), the result has
+/// StatusCode::overflow, beside all that it has without, and the next batch has space for as many.
 ///
 /// Each record is the single-precision version of the record that the CPU computes for the same
-/// point (PenetratingPoint, ContactPoint). Where both exist they name the same edge, with two
-/// exceptions:
-/// - If the nearest point is closer to a vertex than `error_bound`, one may name that vertex and
-///   the other an adjacent edge.
-/// - If the point is farther than 1024 cells from the other boundary, they may name different edges
-///   whose distances differ by at most `error_bound`.
+/// point (PenetratingPoint, ContactPoint), but for the normal of a contact of B's boundary, which
+/// points out of A. It names the edge that the nearest point lies on, never a vertex; if another
+/// one is as near up to `error_bound`, either (point_flags::undecided).
 ///
 /// A record may exist on one side only if the point's distance differs from the contact distance by
-/// at most `error_bound`, or if the point is so close to the boundary that it counts as touching
-/// (point_flags::touching).
+/// at most `error_bound`, if the point is so close to the boundary that it counts as touching
+/// (point_flags::touching), or if a search took too long (point_flags::undecided).
 struct PointsOnDevice {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
-    VkDeviceSize size = 0;             ///< of the range, in bytes, at the poses of the query
+    VkDeviceSize size = 0;             ///< of the range, in bytes
     /// Upper bound of `size` for the same query at any poses, in bytes: for points all along the
     /// boundaries that it examines (of penetration A's, of contacts A's and B's). A buffer of the
     /// host's that large is never too small, until the rings of a shape are replaced.
     VkDeviceSize max_size = 0;
-    std::uint32_t capacity = 0;  ///< maximum number of records, at the poses of the query
-    /// Origin of all positions, world coordinates: the middle of the points examined.
-    Vector2 origin;
+    std::uint32_t capacity = 0;  ///< maximum number of records
+    Vector2 origin;              ///< of all positions, world coordinates
     /// Error bound of every coordinate, distance and depth of the records and the summary, world
     /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
-    /// is larger.
+    /// is larger, where the record is neither touching nor undecided.
     double error_bound = 0.0;
     OutputState state;      ///< once the device has executed the batch; or as the host asked
     HeaderOnDevice header;  ///< of the records
@@ -265,44 +262,47 @@ inline constexpr std::uint32_t inside = 1U << 31U;
 
 /// The bits of RecordData::flags.
 namespace point_flags {
-/// A contact of B's boundary, whose nearest point and feature are on A.
+/// Of a batch: a contact of B's boundary, whose nearest point and feature are on A.
 inline constexpr std::uint32_t on_b = 1;
-/// Too close to the boundary for single precision to tell inside from outside: the normal is that
-/// of the edge, or (0, 0) if the edge has no length (repeated vertices).
+/// Too close to the other boundary, by about the error, for single precision to tell inside from
+/// outside: the normal is that of the edge, or (0, 0) if the edge has no length (repeated
+/// vertices).
 inline constexpr std::uint32_t touching = 2;
+/// Another point of the boundary may be as near as `nearest`, which is as near up to the error;
+/// after a search that took too long, it may also be nearer.
+inline constexpr std::uint32_t undecided = 4;
 }  // namespace point_flags
 
 /// SummaryData::deepest if there is no record.
 inline constexpr std::uint32_t no_point = UINT32_MAX;
 
-/// NearfieldSummary of the GLSL header (std430). The box is relative to PointsOnDevice::origin.
+/// NearfieldSummary of the GLSL header (std430).
 struct SummaryData {
-    std::uint32_t count = 0;           ///< number of records
-    std::uint32_t capacity = 0;        ///< as PointsOnDevice::capacity
+    std::uint32_t count = 0;  ///< of the records that were found; at least, if the capacity is 0
+    /// As PointsOnDevice::capacity; 0 if the search itself had no room, and nothing is stored.
+    std::uint32_t capacity = 0;
     std::uint32_t deepest = no_point;  ///< index of the first record of the greatest depth
     float depth = 0.0F;  ///< its depth: distance inside the other shape, negative outside
-    float low[2]{};      ///< bounding box of all records' points, low corner; valid if count > 0
-    float high[2]{};     ///< its high corner
 };
-static_assert(sizeof(SummaryData) == 32 && offsetof(SummaryData, deepest) == 8 &&
-              offsetof(SummaryData, low) == 16 && offsetof(SummaryData, high) == 24);
+static_assert(sizeof(SummaryData) == 16 && offsetof(SummaryData, deepest) == 8);
 
-/// NearfieldRecord of the GLSL header (std430). Positions are relative to PointsOnDevice::origin.
+/// NearfieldRecord of the GLSL header (std430): a point of one shape's boundary and what is nearest
+/// to it of the other's. Positions are relative to PointsOnDevice::origin or
+/// PairsOnDevice::origin.
 struct RecordData {
-    float point[2]{};    ///< on the boundary of A, or of B (point_flags::on_b)
-    float nearest[2]{};  ///< the nearest point of the other shape's boundary
-    /// Unit vector that points out of B, towards increasing signed distance; see
-    /// point_flags::touching. For a penetrating point, the direction out of B.
+    float point[2]{};    ///< on the boundary of the one shape
+    float nearest[2]{};  ///< the nearest point of the other's boundary
+    /// Unit vector that points out of the other shape; see point_flags::touching.
     float normal[2]{};
-    float distance = 0.0F;      ///< from `point` to `nearest`, world units, >= 0
-    std::uint32_t feature = 0;  ///< id of the feature that `nearest` lies on (feature_bits)
-    std::uint32_t flags = 0;    ///< point_flags
-    std::uint32_t place = 0;    ///< index among the points examined: along A's rings, then B's
+    float distance = 0.0F;  ///< from `point` to `nearest`, world units, >= 0
+    /// The edge that `nearest` lies on, with feature_bits::unique and inside; never a vertex.
+    std::uint32_t feature = 0;
+    std::uint32_t edge = 0;   ///< that `point` lies on
+    std::uint32_t flags = 0;  ///< point_flags
 };
 static_assert(sizeof(RecordData) == 40 && offsetof(RecordData, nearest) == 8 &&
               offsetof(RecordData, normal) == 16 && offsetof(RecordData, distance) == 24 &&
-              offsetof(RecordData, feature) == 28 && offsetof(RecordData, flags) == 32 &&
-              offsetof(RecordData, place) == 36);
+              offsetof(RecordData, feature) == 28 && offsetof(RecordData, edge) == 32);
 
 /// IntersectionSampleData::edge if A takes part by its volume.
 inline constexpr std::uint32_t no_edge = UINT32_MAX;

@@ -48,24 +48,19 @@ struct ArrayOnDevice {
 /// records, of which a pair names one.
 struct PairsOnDevice {
     ArrayOnDevice pairs;         ///< of PairData
-    ArrayOnDevice records;       ///< of PairRecordData
+    ArrayOnDevice records;       ///< of RecordData
     Vector2 origin;              ///< of all positions, world coordinates
     OutputState state;           ///< once the device has executed the search
     std::uint64_t revision = 0;  ///< changes whenever a handle or a size does
 };
 
-/// The bits of PairData::flags and PairRecordData::flags.
+/// The bits of PairData::flags.
 namespace pair_flags {
-/// Of a record: too close to the other boundary, by about the error, for single precision to tell
-/// inside from outside; its normal is (0, 0).
-inline constexpr std::uint32_t touching = 2;
-/// Of a pair: whether it is hit is not certain. Of a record: another point of the boundary may be
-/// as near as `nearest`, which is as near up to the error; after a search that took too long, it
-/// may also be nearer.
+/// Whether the pair is hit is not certain.
 inline constexpr std::uint32_t undecided = 4;
-/// Of a pair that is hit for certain: count and deepest record are not.
+/// It is hit for certain; count and deepest record are not.
 inline constexpr std::uint32_t uncertain = 8;
-/// Of a pair of contacts: the shapes intersect for certain.
+/// Contacts: the shapes intersect for certain.
 inline constexpr std::uint32_t intersects = 16;
 }  // namespace pair_flags
 
@@ -89,22 +84,5 @@ struct PairData {
 };
 static_assert(sizeof(PairData) == 40 && offsetof(PairData, flags) == 12 &&
               offsetof(PairData, first_point) == 16 && offsetof(PairData, deepest) == 32);
-
-/// NearfieldPairRecord of the GLSL header (std430): a point of one shape's boundary and what is
-/// nearest to it of the other's. Positions are relative to PairsOnDevice::origin.
-struct PairRecordData {
-    float point[2]{};    ///< on the boundary of the one shape
-    float nearest[2]{};  ///< the nearest point of the other's boundary
-    /// Unit vector that points out of the other shape; (0, 0) with pair_flags::touching.
-    float normal[2]{};
-    float distance = 0.0F;  ///< from `point` to `nearest`, world units, >= 0
-    /// The edge that `nearest` lies on, with feature_bits::unique and inside; never a vertex.
-    std::uint32_t feature = 0;
-    std::uint32_t edge = 0;   ///< that `point` lies on
-    std::uint32_t flags = 0;  ///< pair_flags
-};
-static_assert(sizeof(PairRecordData) == 40 && offsetof(PairRecordData, nearest) == 8 &&
-              offsetof(PairRecordData, normal) == 16 && offsetof(PairRecordData, distance) == 24 &&
-              offsetof(PairRecordData, feature) == 28 && offsetof(PairRecordData, edge) == 32);
 
 }  // namespace nearfield

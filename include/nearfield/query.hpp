@@ -107,13 +107,14 @@ struct NEARFIELD_EXPORT PenetrationQuery {
         false;  ///< true: the answer is the summary (count, deepest), without points
     Technique technique = Technique::automatic;  ///< the technique that answers
     /// True: summary and points also stay on the device, for shaders to read (on_device.hpp).
-    /// Technique::automatic then selects a device technique, and Technique::cpu fails
-    /// (invalid_query).
+    /// Technique::automatic then selects Technique::compute; the others fail (invalid_query), as do
+    /// boundaries that are too large for the device (too_large).
     bool on_device = false;
     /// The host's buffer that results on the device go to; null: nearfield's own. Ignored if
-    /// `on_device` is false. A target that cannot be written, or is too small, fails
-    /// (invalid_query). Borrowed until run(), submit() or record() returns; the buffer itself,
-    /// until the batch is collected.
+    /// `on_device` is false. A target that cannot be written, or is too small for a summary, fails
+    /// (invalid_query), and so does one that is too small for a field or for the samples of an
+    /// intersection. Borrowed until run(), submit() or record() returns; the buffer itself, until
+    /// the batch is collected.
     const BufferTarget* target = nullptr;
 };
 

@@ -3,7 +3,6 @@
 #include <tests/support/mock_driver.hpp>
 
 #include <algorithm>
-#include <set>
 
 namespace nearfield::test {
 namespace {
@@ -69,37 +68,6 @@ TEST(MockDriver, ComplainsOfEveryCallWithoutTheHostsAllocator) {
         std::count_if(driver.calls().begin(), driver.calls().end(), makes_or_destroys);
     EXPECT_GT(calls, 0);
     EXPECT_EQ(driver.breaches().size(), static_cast<std::size_t>(calls));
-}
-
-/// Resident outputs are read back by a copy on the device. In the mock driver, device-local memory
-/// names another edge for every point than mapped memory does.
-TEST(MockDriver, CopiesWhatStaysOnTheDeviceToWhereTheHostReadsIt) {
-    for (const Technique technique : techniques) {
-        SCOPED_TRACE(to_string(technique));
-        World world(technique);
-        world.take_all_before(World::Step::submit_first);
-        const Batch all = world.recordable(8);
-        auto query = std::get<PenetrationQuery>(all.queries()[0]);
-        const auto edges = [&](bool resident) {
-            query.on_device = resident;
-            Batch batch;
-            const auto handle = batch.add(query);
-            Results results;
-            const Status status = world.context().run(batch, results);
-            EXPECT_TRUE(status.ok()) << status.text();
-            std::set<std::uint32_t> found;
-            for (const PenetratingPoint& record : results[handle].points) {
-                found.insert(record.feature.index);
-            }
-            return found;
-        };
-        // The edge, or the vertices at its ends.
-        EXPECT_EQ(edges(true), (std::set<std::uint32_t>{1}));
-        // By compute, the device searches for points that do not stay; the mock driver finds none.
-        EXPECT_EQ(edges(false), technique == Technique::raster ? (std::set<std::uint32_t>{2, 3})
-                                                               : std::set<std::uint32_t>{});
-        EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
-    }
 }
 
 /// The batches of a context share images, which are recreated for larger batches.

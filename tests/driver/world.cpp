@@ -273,8 +273,8 @@ Batch World::recordable(double cells) const {
 Batch World::batch(double cells, Technique technique) const {
     Batch batch;
     add_recordable(batch, cells, technique);
-    batch.add(
-        ContactQuery{here(), there(), 1.0 / cells, 0.1, ContactNormals::gradient, false, technique});
+    batch.add(ContactQuery{here(), there(), 1.0 / cells, 0.1, ContactNormals::gradient, false,
+                           technique});
     return batch;
 }
 
@@ -284,16 +284,20 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
     DistanceFieldQuery field{here(), there(), tolerance};
     field.technique = technique;
     if (technique != Technique::cpu) {
+        constexpr Technique keeps = Technique::compute;
         batch.add(PenetrationQuery{here(), there(), tolerance, PenetrationPoints::boundary, false,
-                                   technique, true});
+                                   keeps, true});
         batch.add(ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, false,
-                               technique, true});
+                               keeps, true});
+        field.technique = keeps;
         field.on_device = true;
         field.target = &target_;
         batch.add(field);
         field.on_device = false;
+        field.target = nullptr;
+        field.technique = technique;
         batch.add(IntersectionQuery{here(), there(), tolerance, IntersectionKind::boundary_volume,
-                                    true, IntersectionStrategy::stencil, technique, true});
+                                    true, IntersectionStrategy::stencil, keeps, true});
     }
     for (const PenetrationPoints points :
          {PenetrationPoints::boundary, PenetrationPoints::vertices}) {

@@ -52,7 +52,7 @@ public:
                                      Step::record_last,
                                      Step::destroy};
 
-    /// Uses this technique for queries: raster or compute.
+    /// Uses this technique for queries, raster or compute, but for those whose results stay.
     explicit World(Technique technique)
         : technique_(technique),
           before_(driver_.make_semaphore(true)),

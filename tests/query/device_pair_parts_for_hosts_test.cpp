@@ -18,7 +18,7 @@ protected:
     /// What stays on the device: as many of each as the headers say.
     struct Residents {
         std::vector<PairData> pairs;
-        std::vector<PairRecordData> records;
+        std::vector<RecordData> records;
     };
     Residents read(const PairsOnDevice& resident) {
         Residents all;
@@ -44,7 +44,7 @@ private:
 
 /// Where two edges are as near, either may be the nearest: points that are searched together
 /// differ.
-bool are_alike(const PairRecordData& a, const PairRecordData& b) {
+bool are_alike(const RecordData& a, const RecordData& b) {
     return a.point[0] == b.point[0] && a.point[1] == b.point[1] && a.edge == b.edge &&
            std::abs(a.distance - b.distance) < 1e-6F;
 }

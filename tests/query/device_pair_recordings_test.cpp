@@ -98,7 +98,7 @@ protected:
             data += header_bytes + bytes;
         };
         add(sizeof(PairData), pairs.pairs.size);
-        add(sizeof(PairRecordData), pairs.records.size);
+        add(sizeof(RecordData), pairs.records.size);
         return words;
     }
     std::vector<std::uint32_t> read_residents(const PairsOnDevice& pairs) {

@@ -22,7 +22,7 @@ protected:
         HeaderData pair_header;
         HeaderData record_header;
         std::vector<PairData> pairs;
-        std::vector<PairRecordData> records;
+        std::vector<RecordData> records;
     };
 
     template <class Data>
@@ -45,7 +45,7 @@ protected:
         EXPECT_LE(all.pair_header.count, pairs.pairs.capacity);
         EXPECT_LE(all.record_header.count, pairs.records.capacity);
         EXPECT_EQ(pairs.pairs.size, pairs.pairs.capacity * sizeof(PairData));
-        EXPECT_EQ(pairs.records.size, pairs.records.capacity * sizeof(PairRecordData));
+        EXPECT_EQ(pairs.records.size, pairs.records.capacity * sizeof(RecordData));
         for (const HeaderData& header : {all.pair_header, all.record_header}) {
             EXPECT_EQ(header.points.vertexCount, header.count);
             EXPECT_EQ(header.points.instanceCount, 1U);
@@ -58,7 +58,7 @@ protected:
         }
         all.pairs = read<PairData>(pairs.pairs.buffer, 0, all.pair_header.count, pairs.state);
         all.records =
-            read<PairRecordData>(pairs.records.buffer, 0, all.record_header.count, pairs.state);
+            read<RecordData>(pairs.records.buffer, 0, all.record_header.count, pairs.state);
         return all;
     }
 
@@ -67,10 +67,10 @@ protected:
     static constexpr double near = 40.0 * 0x1p-17;
 
     /// Of the records of a row, that of a point; null if there is none.
-    static const PairRecordData* find(const Read& all, std::uint32_t first, std::uint32_t count,
-                                      const Vector2& origin, const Vector2& point) {
+    static const RecordData* find(const Read& all, std::uint32_t first, std::uint32_t count,
+                                  const Vector2& origin, const Vector2& point) {
         for (std::uint32_t i = first; i < first + count; ++i) {
-            const PairRecordData& one = all.records[i];
+            const RecordData& one = all.records[i];
             if (std::hypot(origin.x + static_cast<double>(one.point[0]) - point.x,
                            origin.y + static_cast<double>(one.point[1]) - point.y) <= near) {
                 return &one;
@@ -80,7 +80,7 @@ protected:
     }
 
     /// `direction`: out of the other shape.
-    void expect_equal(const PairRecordData& found, const Vector2& nearest, const Vector2& direction,
+    void expect_equal(const RecordData& found, const Vector2& nearest, const Vector2& direction,
                       double distance, bool unique, const Vector2& origin) {
         EXPECT_NEAR(static_cast<double>(found.distance), distance, near);
         if (unique && (found.feature & feature_bits::unique) != 0) {
@@ -91,13 +91,12 @@ protected:
         }
         const auto x = static_cast<double>(found.normal[0]);
         const auto y = static_cast<double>(found.normal[1]);
-        if ((found.flags & pair_flags::touching) != 0) {
-            EXPECT_EQ(x * x + y * y, 0.0);
+        EXPECT_NEAR(std::hypot(x, y), 1.0, 1e-6);
+        if ((found.flags & point_flags::touching) != 0) {
             EXPECT_LE(distance, 2.0 * near);
             return;
         }
-        EXPECT_NEAR(std::hypot(x, y), 1.0, 1e-6);
-        const bool is_decided = (found.flags & pair_flags::undecided) == 0;
+        const bool is_decided = (found.flags & point_flags::undecided) == 0;
         if (unique && is_decided && distance > 100.0 * near) {
             EXPECT_NEAR(x, direction.x, 0.2);
             EXPECT_NEAR(y, direction.y, 0.2);
@@ -155,7 +154,7 @@ protected:
             if constexpr (std::is_same_v<Query, ContactQuery>) {
                 is_of_b = one.on == Side::b;
             }
-            const PairRecordData* const found =
+            const RecordData* const found =
                 is_of_b ? find(all, pair.first_of_b, pair.count_of_b, origin, one.position)
                         : find(all, pair.first_point, pair.point_count, origin, one.position);
             ASSERT_NE(found, nullptr) << one.position.x << " " << one.position.y;

@@ -94,7 +94,7 @@ Batch resident_queries(const Batch& every) {
         std::visit(
             [&](auto kept) {
                 if constexpr (requires { kept.on_device; }) {
-                    if (kept.technique != Technique::cpu) {
+                    if (kept.technique == Technique::compute) {
                         kept.on_device = true;
                         batch.add(kept);
                     }

@@ -31,7 +31,7 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
     settings.batches_in_flight = 2;
     Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
-    const PlacedPair pair(*made, shapes, Technique::raster);
+    const PlacedPair pair(*made, shapes, Technique::compute);
     struct Frame {
         Ticket ticket;
         QueryHandle<DistanceFieldQuery> field;
@@ -39,8 +39,7 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
     };
     const auto submit = [&](int number) {
         Batch batch;
-        DistanceFieldQuery field =
-            field_of(pair, device_techniques[static_cast<std::size_t>(number % 2)]);
+        DistanceFieldQuery field = field_of(pair, Technique::compute);
         field.b.pose.translation.x = 0.01 * number;
         PenetrationQuery depths = pair.penetration();
         depths.b.pose.translation.x = 0.01 * number;
@@ -76,43 +75,41 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
     Random random(frame_seed);
     const Rings rings = with_holes(random, 3);
     const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.01};
-    for (const Technique technique : device_techniques) {
-        // With its own context: the samples of the intersection, most cells of its regions, exceed
-        // the capacity of the first submission, and their tile batches are submitted again.
-        Expected<Context> made = Context::create(host_device(), on_demand());
-        ASSERT_TRUE(made.has_value()) << made.error().text();
-        const PlacedPair pair(*made, shapes, technique);
-        const auto ask_all = [&](bool resident, std::size_t& records) {
-            DistanceFieldQuery field = field_of(pair, technique);
-            field.on_device = resident;
-            const std::vector<Vector2> points{field.rectangle->min};
-            PenetrationQuery depths = pair.penetration();
-            depths.on_device = resident;
-            ContactQuery contacts = pair.contacts(0.05);
-            contacts.on_device = resident;
-            Batch batch;
-            IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
-            overlap.on_device = resident;
-            batch.add(overlap);
-            batch.add(field);
-            const auto of_depths = batch.add(depths);
-            batch.add(contacts);
-            field.on_device = false;
-            field.points = points;
-            batch.add(field);
-            Results results;
-            const Expected<Ticket> ticket = made->submit(batch);
-            EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
-            EXPECT_TRUE(made->collect(*ticket, results).ok());
-            records = results[of_depths].points.size();
-            return all_numbers(without_regions(std::move(results)));
-        };
-        std::size_t with = 0;
-        std::size_t without = 0;
-        const std::vector<double> first = ask_all(true, with);
-        EXPECT_EQ(first, ask_all(false, without));
-        EXPECT_GT(with, 50U);
-    }
+    // With its own context: the samples of the intersection, most cells of its regions, exceed
+    // the capacity of the first submission, and their tile batches are submitted again.
+    Expected<Context> made = Context::create(host_device(), on_demand());
+    ASSERT_TRUE(made.has_value()) << made.error().text();
+    const PlacedPair pair(*made, shapes, Technique::compute);
+    const auto ask_all = [&](bool resident, std::size_t& records) {
+        DistanceFieldQuery field = field_of(pair, Technique::compute);
+        field.on_device = resident;
+        const std::vector<Vector2> points{field.rectangle->min};
+        PenetrationQuery depths = pair.penetration();
+        depths.on_device = resident;
+        ContactQuery contacts = pair.contacts(0.05);
+        contacts.on_device = resident;
+        Batch batch;
+        IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
+        overlap.on_device = resident;
+        batch.add(overlap);
+        batch.add(field);
+        const auto of_depths = batch.add(depths);
+        batch.add(contacts);
+        field.on_device = false;
+        field.points = points;
+        batch.add(field);
+        Results results;
+        const Expected<Ticket> ticket = made->submit(batch);
+        EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
+        EXPECT_TRUE(made->collect(*ticket, results).ok());
+        records = results[of_depths].points.size();
+        return all_numbers(without_regions(std::move(results)));
+    };
+    std::size_t with = 0;
+    std::size_t without = 0;
+    const std::vector<double> first = ask_all(true, with);
+    EXPECT_EQ(first, ask_all(false, without));
+    EXPECT_GT(with, 50U);
 }
 
 TEST_F(Resident, ImagesOnlyGrow) {
@@ -123,8 +120,8 @@ TEST_F(Resident, ImagesOnlyGrow) {
     settings.batches_in_flight = 1;
     Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
-    const PlacedPair pair(*made, shapes, Technique::raster);
-    DistanceFieldQuery query = field_of(pair, Technique::raster);
+    const PlacedPair pair(*made, shapes, Technique::compute);
+    DistanceFieldQuery query = field_of(pair, Technique::compute);
     VkImage former = VK_NULL_HANDLE;
     for (const double width : {1.0, 0.5, 1.0, 1.5}) {
         query.rectangle = Rectangle{{-0.5, -0.5}, {-0.5 + width, 0.5}};
@@ -153,7 +150,7 @@ TEST_F(Resident, RefusesByName) {
     ContactQuery gradients{here, here, 0.1, 0.1, ContactNormals::gradient};
     gradients.on_device = true;
     DistanceFieldQuery field;
-    field.technique = Technique::raster;
+    field.technique = Technique::compute;
     field.b = here;
     field.tolerance = 0.1;
     field.rectangle = Rectangle{{0.0, 0.0}, {1.0, 1.0}};

@@ -39,7 +39,7 @@ RecordContents taken_apart(const RecordData& record, const Vector2& origin) {
     contents.distance = record.distance;
     contents.on = (record.flags & point_flags::on_b) != 0 ? Side::b : Side::a;
     contents.touching = (record.flags & point_flags::touching) != 0;
-    contents.place = record.place;
+    contents.undecided = (record.flags & point_flags::undecided) != 0;
     return contents;
 }
 

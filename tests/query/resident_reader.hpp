@@ -29,7 +29,7 @@ struct RecordContents : FeatureContents {
     double distance = 0.0;
     Side on = Side::a;
     bool touching = false;
-    std::uint32_t place = 0;
+    bool undecided = false;
 
     [[nodiscard]] double depth() const { return inside ? distance : -distance; }
 };

@@ -86,7 +86,11 @@ protected:
         (void)ask(made(), query, [&](const auto& output) {
             words.bytes = output.size;
             words.output = gpu().read(output.buffer, output.offset, output.size, output.state);
-            words.output.resize(8 + std::min(words.output[0], output.capacity) * words_of_record);
+            const std::size_t summary = std::is_same_v<Query, IntersectionQuery>
+                                            ? sizeof(IntersectionSummaryData)
+                                            : sizeof(SummaryData);
+            words.output.resize(summary / sizeof(std::uint32_t) +
+                                std::min(words.output[0], output.capacity) * words_of_record);
             words.header = gpu().read(output.header.buffer, output.header.offset,
                                       sizeof(HeaderData), output.state);
         });
@@ -120,47 +124,45 @@ void expect_cells(const HostImage& image, VkExtent2D extent, const std::vector<s
 
 TEST_F(ResidentTarget, FieldsEqualThoseInOwnImages) {
     for_each_case(target_seed, 5, [&](Random& random) {
-        const PlacedPair pair(made(), any_pair(random), Technique::raster);
+        const PlacedPair pair(made(), any_pair(random), Technique::compute);
         SCOPED_TRACE(describe(pair.pair()));
-        for (const Technique technique : device_techniques) {
-            DistanceFieldQuery query = field_of(pair, technique);
-            query.values = query.features = false;
-            const FieldWords own = own_words(query);
-            ASSERT_FALSE(own.feature.empty());
-            const VkExtent2D extent{own.field.width + 5, own.field.height + 3};
-            const HostImage distance(gpu(), VK_FORMAT_R32_SFLOAT, extent);
-            const HostImage feature(gpu(), VK_FORMAT_R32_UINT, extent);
-            FieldTarget target{distance.target(), feature.target()};
-            query.target = &target;
-            Batch batch;
-            const auto handle = batch.add(query);
-            const Results results = record(
-                batch,
-                [&](VkCommandBuffer commands) {
-                    distance.fill(commands);
-                    feature.fill(commands);
-                },
-                [&](VkCommandBuffer commands, Ticket ticket) {
-                    target = {};  // it was borrowed for the call alone
-                    const auto field = made().on_device(ticket, handle);
-                    ASSERT_TRUE(field.has_value()) << field.error().text();
-                    EXPECT_EQ(field->signed_distance.image, distance.target().image);
-                    EXPECT_EQ(field->feature.image, feature.target().image);
-                    EXPECT_EQ(field->image_extent.width + field->image_extent.height, 0U);
-                    EXPECT_EQ(field->width, own.field.width);
-                    distance.use(commands);
-                    feature.use(commands);
-                });
-            EXPECT_TRUE(results[handle].status.ok()) << results[handle].status.text();
-            expect_cells(distance, extent, own.signed_distance, own.field.width);
-            expect_cells(feature, extent, own.feature, own.field.width);
-        }
+        DistanceFieldQuery query = field_of(pair, Technique::compute);
+        query.values = query.features = false;
+        const FieldWords own = own_words(query);
+        ASSERT_FALSE(own.feature.empty());
+        const VkExtent2D extent{own.field.width + 5, own.field.height + 3};
+        const HostImage distance(gpu(), VK_FORMAT_R32_SFLOAT, extent);
+        const HostImage feature(gpu(), VK_FORMAT_R32_UINT, extent);
+        FieldTarget target{distance.target(), feature.target()};
+        query.target = &target;
+        Batch batch;
+        const auto handle = batch.add(query);
+        const Results results = record(
+            batch,
+            [&](VkCommandBuffer commands) {
+                distance.fill(commands);
+                feature.fill(commands);
+            },
+            [&](VkCommandBuffer commands, Ticket ticket) {
+                target = {};  // it was borrowed for the call alone
+                const auto field = made().on_device(ticket, handle);
+                ASSERT_TRUE(field.has_value()) << field.error().text();
+                EXPECT_EQ(field->signed_distance.image, distance.target().image);
+                EXPECT_EQ(field->feature.image, feature.target().image);
+                EXPECT_EQ(field->image_extent.width + field->image_extent.height, 0U);
+                EXPECT_EQ(field->width, own.field.width);
+                distance.use(commands);
+                feature.use(commands);
+            });
+        EXPECT_TRUE(results[handle].status.ok()) << results[handle].status.text();
+        expect_cells(distance, extent, own.signed_distance, own.field.width);
+        expect_cells(feature, extent, own.feature, own.field.width);
     });
 }
 
 TEST_F(ResidentTarget, OneImageMayBeTheHosts) {
     Random random(target_seed);
-    const PlacedPair pair(made(), any_pair(random), Technique::raster);
+    const PlacedPair pair(made(), any_pair(random), Technique::compute);
     DistanceFieldQuery query = field_of(pair, Technique::compute);
     const FieldWords own = own_words(query);
     const VkExtent2D extent{own.field.width, own.field.height};
@@ -227,24 +229,22 @@ TEST_F(ResidentTarget, RecordsAndSamplesEqualThoseInTheOwnBuffer) {
     Random random(target_seed);
     const Pair shapes{
         {"coast", coast(random, 120, 0.5)}, {"holes", with_holes(random, 3)}, {}, {}, 0.03};
-    for (const Technique technique : device_techniques) {
-        const PlacedPair pair(made(), shapes, technique);
-        PenetrationQuery depths = pair.penetration();
-        ContactQuery contacts = pair.contacts(0.05);
-        IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
-        IntersectionQuery edges = pair.intersection(IntersectionKind::boundary_volume);
-        depths.on_device = contacts.on_device = overlap.on_device = edges.on_device = true;
-        expect_same_in_buffer(depths, sizeof(RecordData) / 4);
-        expect_same_in_buffer(contacts, sizeof(RecordData) / 4);
-        expect_same_in_buffer(overlap, sizeof(IntersectionSampleData) / 4);
-        expect_same_in_buffer(edges, sizeof(IntersectionSampleData) / 4);
-    }
+    const PlacedPair pair(made(), shapes, Technique::compute);
+    PenetrationQuery depths = pair.penetration();
+    ContactQuery contacts = pair.contacts(0.05);
+    IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
+    IntersectionQuery edges = pair.intersection(IntersectionKind::boundary_volume);
+    depths.on_device = contacts.on_device = overlap.on_device = edges.on_device = true;
+    expect_same_in_buffer(depths, sizeof(RecordData) / 4);
+    expect_same_in_buffer(contacts, sizeof(RecordData) / 4);
+    expect_same_in_buffer(overlap, sizeof(IntersectionSampleData) / 4);
+    expect_same_in_buffer(edges, sizeof(IntersectionSampleData) / 4);
 }
 
 TEST_F(ResidentTarget, WhatIsWrittenOutlivesTheBatch) {
     Random random(target_seed);
-    const PlacedPair pair(made(), any_pair(random), Technique::raster);
-    DistanceFieldQuery query = field_of(pair, Technique::raster);
+    const PlacedPair pair(made(), any_pair(random), Technique::compute);
+    DistanceFieldQuery query = field_of(pair, Technique::compute);
     constexpr VkImageUsageFlags usage =
         VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     // As a host that samples them: the states are the default ones. Batches in flight take turns.

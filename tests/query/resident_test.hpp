@@ -10,8 +10,6 @@
 
 namespace nearfield::test {
 
-inline constexpr std::array<Technique, 2> device_techniques{Technique::raster, Technique::compute};
-
 /// Tests of resident outputs.
 class Resident : public QueryTest {
 protected:

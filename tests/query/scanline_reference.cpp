@@ -138,9 +138,9 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     std::vector<Placed> found;
     for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
         builder.build(plan, number, batch);
-        for (const plan::DrawnOverlap& drawn :
+        for (const plan::OverlapTile& overlap :
              batch.raster.overlaps[static_cast<std::size_t>(query.strategy)]) {
-            scan_tile(plan, batch, drawn, query.strategy, limits.subpixel, found);
+            scan_tile(plan, batch, overlap, query.strategy, limits.subpixel, found);
         }
     }
     std::sort(found.begin(), found.end(),

@@ -21,19 +21,15 @@ Batch resident_batch(ShapeHandle a, ShapeHandle b) {
     field.tolerance = 0.1;
     field.rectangle = Rectangle{{4.0, 4.0}, {6.0, 6.0}};
     field.on_device = true;
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
-        field.technique = technique;
-        batch.add(field);
-    }
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
-        const Instance here{a, {{5.0, 5.0}, 0.0}};
-        batch.add(PenetrationQuery{here, field.b, 0.08, {}, false, technique, true});
-        batch.add(ContactQuery{here, field.b, 0.08, 0.05, {}, false, technique, true});
-        for (const IntersectionKind kind :
-             {IntersectionKind::volume_volume, IntersectionKind::boundary_boundary}) {
-            batch.add(IntersectionQuery{here, field.b, 0.08, kind, false,
-                                        IntersectionStrategy::stencil, technique, true});
-        }
+    field.technique = Technique::compute;
+    batch.add(field);
+    const Instance here{a, {{5.0, 5.0}, 0.0}};
+    batch.add(PenetrationQuery{here, field.b, 0.08, {}, false, Technique::compute, true});
+    batch.add(ContactQuery{here, field.b, 0.08, 0.05, {}, false, Technique::compute, true});
+    for (const IntersectionKind kind :
+         {IntersectionKind::volume_volume, IntersectionKind::boundary_boundary}) {
+        batch.add(IntersectionQuery{here, field.b, 0.08, kind, false, IntersectionStrategy::stencil,
+                                    Technique::compute, true});
     }
     return batch;
 }

@@ -29,7 +29,9 @@ void main() {
     NearfieldRecord record = records[index];
     inside = nearfield_is_inside(record.feature) ? 1u : 0u;
     vec2 corner = view.arrow_length * corners[gl_VertexIndex];
-    vec2 across = vec2(-record.normal.y, record.normal.x);
-    vec2 place = record.point + corner.x * record.normal + corner.y * across;
+    // Out of B, as nearly as a point of its boundary tells it.
+    vec2 along = (record.flags & nearfield_on_b_flag) != 0u ? -record.normal : record.normal;
+    vec2 across = vec2(-along.y, along.x);
+    vec2 place = record.point + corner.x * along + corner.y * across;
     gl_Position = in_picture(place - view.records_low);
 }

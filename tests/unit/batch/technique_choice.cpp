@@ -181,7 +181,7 @@ TEST_F(TechniqueChoice, LeavesToTheCpuWhatComputeMightRefuse) {
     expect_all(overlaps, Technique::cpu, rule);
 }
 
-TEST_F(TechniqueChoice, OfWhatStaysOnTheDeviceIsComputeWhereItAnswers) {
+TEST_F(TechniqueChoice, OfWhatStaysOnTheDeviceIsComputeAlone) {
     auto points = between<PenetrationQuery>();
     points.on_device = true;
     auto overlap = between<IntersectionQuery>();
@@ -191,11 +191,9 @@ TEST_F(TechniqueChoice, OfWhatStaysOnTheDeviceIsComputeWhereItAnswers) {
     for (TechniqueRule rule : {hardware(), software()}) {
         expect_all({points, overlap, distances}, Technique::compute, rule);
         rule.largest_range = plan::max_shape_bytes(a_, b_) - 1;
-        EXPECT_EQ(choose_one(overlap, rule), Technique::raster);
-        rule.available.raster = false;
         EXPECT_EQ(choose_one(overlap, rule), Technique::compute) << "to be refused by name";
         rule.available = {.compute = false};
-        expect_all({points, overlap, distances}, Technique::raster, rule);
+        expect_all({points, overlap, distances}, Technique::automatic, rule);
     }
 }
 

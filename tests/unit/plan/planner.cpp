@@ -162,7 +162,7 @@ TEST_F(PlannerTest, LimitsAreToldInUnitsInWhichTheyAreNotZero) {
 
 TEST_F(PlannerTest, ResidentSamplesAreGivenAllTheRoomOfTheBufferButTheSummarys) {
     IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 0.1};
-    query.technique = Technique::raster;
+    query.technique = Technique::compute;
     query.on_device = query.samples_on_device = true;
     const auto status_with_room = [&](double cells, std::uint64_t less) {
         limits_.largest_range = sizeof(IntersectionSummaryData) +
