@@ -7,7 +7,7 @@ namespace nearfield::passes {
 
 using graph::Access;
 
-Collect::Collect(const gpu::Device& device, const ComputeLayout& layout)
+Collect::Collect(const gpu::Device& device, const graph::ComputeLayout& layout)
     : numbers_(device, layout, shaders::collect_comp, "nearfield collect numbers"),
       colors_(device, layout, shaders::collect_colors_comp, "nearfield collect colours") {}
 

@@ -13,7 +13,7 @@ namespace nearfield::passes {
 /// in any order.
 class Collect {
 public:
-    Collect(const gpu::Device& device, const ComputeLayout& layout);
+    Collect(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// Adds the pass for the tiles of one strategy. `samples`: summaries, count and list, which the
     /// host has initialised.

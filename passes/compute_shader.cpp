@@ -2,7 +2,7 @@
 
 namespace nearfield::passes {
 
-ComputeShader::ComputeShader(const gpu::Device& device, const ComputeLayout& layout,
+ComputeShader::ComputeShader(const gpu::Device& device, const graph::ComputeLayout& layout,
                              gpu::Spirv code, const char* name, std::span<const VkBool32> constants)
     : functions_(&device.functions()),
       layout_(layout.pipeline_layout()),

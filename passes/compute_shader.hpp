@@ -3,9 +3,9 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/gpu/pipeline.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/tile_batch.hpp>
-#include <passes/compute_layout.hpp>
 
 #include <shaders/layout.h>
 #include <shaders/push.h>
@@ -20,11 +20,14 @@
 
 namespace nearfield::passes {
 
+/// Those of the largest push constants.
+inline constexpr std::uint32_t max_push_bytes = sizeof(plan::SearchPush);
+
 /// A compute shader of the layout that all share: how it is bound and dispatched.
 class ComputeShader {
 public:
     /// `constants`: see gpu::make_compute_pipeline.
-    ComputeShader(const gpu::Device& device, const ComputeLayout& layout, gpu::Spirv code,
+    ComputeShader(const gpu::Device& device, const graph::ComputeLayout& layout, gpu::Spirv code,
                   const char* name, std::span<const VkBool32> constants = {});
 
     void bind(VkCommandBuffer commands) const;
@@ -34,7 +37,7 @@ public:
     /// Sets the push constants, a structure of shaders/push.h.
     template <class Push>
     void push(VkCommandBuffer commands, const Push& push) const {
-        static_assert(sizeof(Push) <= ComputeLayout::push_bytes);
+        static_assert(sizeof(Push) <= max_push_bytes);
         push_bytes(commands, &push, sizeof(Push));
     }
 

@@ -108,7 +108,7 @@ CopyBack::CopyBack(const gpu::Device& device)
     graph.compile(device);
 }
 
-ExportField::ExportField(const gpu::Device& device, const ComputeLayout& layout)
+ExportField::ExportField(const gpu::Device& device, const graph::ComputeLayout& layout)
     : shader(device, layout, shaders::export_field_comp, "nearfield export field"),
       words(graph.import_buffer({"field results"}, after_tiles)),
       tables(graph.import_buffer({"tables", true, false})),
@@ -127,7 +127,7 @@ ExportField::ExportField(const gpu::Device& device, const ComputeLayout& layout)
 }
 
 // A search that takes the same scratch memory waits for the one before, and so for this.
-ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& layout)
+ExportRecords::ExportRecords(const gpu::Device& device, const graph::ComputeLayout& layout)
     : shader(device, layout, shaders::export_records_comp, "nearfield export records",
              search_constants(device)),
       shapes(graph.import_buffer({"pair shapes", true, false})),
@@ -158,7 +158,7 @@ ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& lay
 }
 
 // The graphs of the tile batches leave their masks readable (render::CompiledGraph).
-ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& layout)
+ExportSamples::ExportSamples(const gpu::Device& device, const graph::ComputeLayout& layout)
     : shader(device, layout, shaders::export_samples_comp, "nearfield export samples"),
       summaries(graph.import_buffer({"tile summaries"}, after_tiles)),
       masks(graph.import_buffer({"masks"}, {read, {}})),
@@ -190,7 +190,7 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
 
 // The graphs of records and samples leave their summaries readable by compute shaders, so the first
 // barrier only has to keep this pass behind them.
-ExportHeaders::ExportHeaders(const gpu::Device& device, const ComputeLayout& layout)
+ExportHeaders::ExportHeaders(const gpu::Device& device, const graph::ComputeLayout& layout)
     : shader(device, layout, shaders::export_headers_comp, "nearfield export headers"),
       summary(graph.import_buffer({"summary"}, {read, {}})),
       headers(graph.import_buffer({"resident headers"}, exported_buffer)) {

@@ -26,7 +26,7 @@ struct CopyBack {
 /// Copies the resolved cells of a field to images for the host's shaders. Leaves the images in the
 /// layout in which these read them, or in the one that the host asked for where they are its own.
 struct ExportField {
-    ExportField(const gpu::Device& device, const ComputeLayout& layout);
+    ExportField(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     struct Input {
         const plan::FieldOutputs* field = nullptr;
@@ -46,7 +46,7 @@ struct ExportField {
 /// follows the search of the part that has the direction; the directions of a query follow each
 /// other.
 struct ExportRecords {
-    ExportRecords(const gpu::Device& device, const ComputeLayout& layout);
+    ExportRecords(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     struct Input {
         /// Those of the search, with the direction in its part, the flags of the records, their
@@ -65,7 +65,7 @@ struct ExportRecords {
 
 /// The samples of an intersection: box, count, place, write.
 struct ExportSamples {
-    ExportSamples(const gpu::Device& device, const ComputeLayout& layout);
+    ExportSamples(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     struct Input {
         const plan::SamplesOutput* samples = nullptr;
@@ -85,7 +85,7 @@ struct ExportSamples {
 
 /// After all these, the header of each output (HeaderData).
 struct ExportHeaders {
-    ExportHeaders(const gpu::Device& device, const ComputeLayout& layout);
+    ExportHeaders(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     struct Input {
         std::span<const plan::ExportHeaderPush> headers;

@@ -20,7 +20,7 @@ using graph::Access;
 
 namespace {
 
-ComputeShader make_field_shader(const gpu::Device& device, const ComputeLayout& layout,
+ComputeShader make_field_shader(const gpu::Device& device, const graph::ComputeLayout& layout,
                                 gpu::Spirv code, const char* name) {
     return {device, layout, code, name, search_constants(device)};
 }
@@ -55,7 +55,8 @@ void dispatch_threads_of(const ComputeShader& shader, VkCommandBuffer commands,
 }  // namespace
 
 std::vector<Fields::ListPass> Fields::make_lists(const gpu::Device& device,
-                                                 const ComputeLayout& layout, bool by_groups) {
+                                                 const graph::ComputeLayout& layout,
+                                                 bool by_groups) {
     using plan::FieldWork;
     std::vector<ListPass> lists;
     const auto add = [&](const char* name, gpu::Spirv code, std::uint32_t FieldWork::*squares) {
@@ -73,7 +74,7 @@ std::vector<Fields::ListPass> Fields::make_lists(const gpu::Device& device,
     return lists;
 }
 
-Fields::Fields(const gpu::Device& device, const ComputeLayout& layout)
+Fields::Fields(const gpu::Device& device, const graph::ComputeLayout& layout)
     : lists_by_groups_(!device.is_software()),
       lists_(make_lists(device, layout, lists_by_groups_)),
       values_(make_field_shader(device, layout, shaders::resolve_blocks_comp,

@@ -17,7 +17,7 @@ namespace nearfield::passes {
 /// cost the most there; on a GPU, which has more threads than there are lists, a workgroup does.
 class Fields {
 public:
-    Fields(const gpu::Device& device, const ComputeLayout& layout);
+    Fields(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// The buffers of the passes; `input`: shapes and tiles; `crowd`: the arguments of the dispatch
     /// for crowded blocks.
@@ -50,8 +50,8 @@ private:
         ComputeShader shader;
         std::uint32_t plan::FieldWork::*squares;  ///< their number
     };
-    static std::vector<ListPass> make_lists(const gpu::Device& device, const ComputeLayout& layout,
-                                            bool by_groups);
+    static std::vector<ListPass> make_lists(const gpu::Device& device,
+                                            const graph::ComputeLayout& layout, bool by_groups);
 
     bool lists_by_groups_;
     std::vector<ListPass> lists_;  ///< the last one also counts crowded blocks

@@ -31,7 +31,8 @@ constexpr VkColorComponentFlags both = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPO
 
 }  // namespace
 
-Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass)
+Gradient::Gradient(const gpu::Device& device, const graph::ComputeLayout& layout,
+                   VkRenderPass render_pass)
     : device_(&device), layout_(make_layout(device, layout.set_layout())) {
     gpu::GraphicsPipelineDescription description = describe_drawing(
         layout_.get(), render_pass, shaders::tile_mesh_vert, shaders::gradient_frag);

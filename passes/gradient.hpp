@@ -2,8 +2,8 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/compute_layout.hpp>
 #include <passes/record_context.hpp>
 
 namespace nearfield::passes {
@@ -14,7 +14,8 @@ namespace nearfield::passes {
 /// gradient image in every tile with blended gradients.
 class Gradient {
 public:
-    Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass);
+    Gradient(const gpu::Device& device, const graph::ComputeLayout& layout,
+             VkRenderPass render_pass);
 
     /// Adds the pass; returns the gradient image.
     graph::Handle declare(TileGraph& graph, graph::Handle mesh, graph::Handle field,

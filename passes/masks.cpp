@@ -9,7 +9,7 @@ namespace nearfield::passes {
 
 using graph::Access;
 
-Masks::Masks(const gpu::Device& device, const ComputeLayout& layout)
+Masks::Masks(const gpu::Device& device, const graph::ComputeLayout& layout)
     : device_(&device),
       shapes_(device, layout, shaders::mask_shapes_comp, "nearfield mask shapes",
               search_constants(device)),

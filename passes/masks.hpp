@@ -12,7 +12,7 @@ namespace nearfield::passes {
 /// that two masks share. The device reads the shapes' own edges, chunk by chunk.
 class Masks {
 public:
-    Masks(const gpu::Device& device, const ComputeLayout& layout);
+    Masks(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// Adds the pass that clears masks and the edges of cells; the first of all passes that use the
     /// scratch memory. It waits for earlier use of that memory on the device, so tile batches may

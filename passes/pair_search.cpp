@@ -25,97 +25,74 @@ std::uint32_t flags_of(const plan::PairSearchKind& kind) {
 
 }  // namespace
 
-PairSearch::PairSearch(const gpu::Device& device, const ComputeLayout& layout,
+PairSearch::PairSearch(const gpu::Device& device, const graph::ComputeLayout& layout,
                        const SearchShaders* shaders, const FoundPairShaders* finding,
                        const plan::PairSearchKind& kind)
-    : shaders_(shaders),
-      finding_(finding),
-      flags_(flags_of(kind)),
-      input_(graph_.import_buffer({"pair shapes", true, false})),
-      instances_(graph_.import_buffer({"pair instances", true, false})),
-      scratch_(graph_.import_buffer({"pair scratch"}, after_writes)),
-      arguments_(graph_.import_buffer({"pair arguments"}, after_dispatches)),
-      found_(uses_of_found(kind)),
-      row_buffer_(graph_.import_buffer({"pair rows", false, true}, found_)),
-      counts_(graph_.import_buffer({"pair counts", false, true}, after_writes)) {
+    : shaders_(shaders), finding_(finding), flags_(flags_of(kind)) {
+    const graph::ExternalAccess found = uses_of_found(kind);
+    auto& graph = part_.graph;
+    part_.shapes = graph.import_buffer({"pair shapes", true, false});
+    part_.instances = graph.import_buffer({"pair instances", true, false});
+    part_.scratch = graph.import_buffer({"pair scratch"}, after_writes);
+    part_.arguments = graph.import_buffer({"pair arguments"}, after_dispatches);
+    part_.rows = graph.import_buffer({"pair rows", false, true}, found);
+    part_.counts = graph.import_buffer({"pair counts", false, true}, after_writes);
+    if (kind.reads_points()) {
+        part_.points = graph.import_buffer({"pair points", false, true}, found);
+    }
+    Versions at{part_.shapes, part_.instances, part_.scratch, part_.arguments,
+                part_.points, part_.rows,      part_.counts};
     if (kind.are_given()) {
         given_.emplace(device, layout, shaders::pair_given_comp, "nearfield given pairs",
                        search_constants(device));
-        declare_given_pairs();
+        declare_given_pairs(at);
     } else {
         declare_boxes();
         boxes_->graph.compile(device);
-        declare_found_pairs();
+        declare_found_pairs(at);
     }
-    declare_edges();
+    declare_edges(at);
     if (kind.goal == plan::PairGoal::tests) {
-        add("pair crossings", finding_->crossings, of_points, plan::edge_total);
-        add_answers("pair verdicts", finding_->verdicts);
+        add(at, "pair crossings", finding_->crossings, plan::edge_total);
+        add_answers(at, "pair verdicts", finding_->verdicts);
     } else {
-        declare_points(kind);
+        declare_points(at, kind);
     }
-    declare_rows();
-    graph_.compile(device);
+    declare_rows(at);
+    graph.compile(device);
 }
 
 void PairSearch::declare_boxes() {
-    Boxes& boxes = boxes_.emplace();
-    boxes.input = boxes.graph.import_buffer({"pair shapes", true, false});
+    Passes& boxes = boxes_.emplace();
+    boxes.shapes = boxes.graph.import_buffer({"pair shapes", true, false});
     boxes.instances = boxes.graph.import_buffer({"pair instances", true, false});
     boxes.scratch = boxes.graph.import_buffer({"pair scratch"}, after_writes);
-    boxes.graph.add_pass(
-        "pair boxes", graph::PassKind::compute,
-        [&boxes](graph::PassBuilder& pass) {
-            pass.read(boxes.instances, Access::storage_read_in_compute);
-            pass.read(boxes.input, Access::storage_read_in_compute);
-            boxes.scratch = pass.write(boxes.scratch, Access::storage_write_in_compute);
-        },
-        [this](VkCommandBuffer commands, const Item& item) {
-            finding_->instances.boxes.bind(commands, item.sets[of_instances]);
-            dispatch(commands, item, finding_->instances.boxes, no_stage, no_stage);
-        });
-    boxes.scratch = boxes.graph.add_compute_pass(
-        "pair levels", {}, boxes.scratch, [this](VkCommandBuffer commands, const Item& item) {
-            finding_->instances.levels.bind(commands, item.sets[of_instances]);
-            push(commands, item, finding_->instances.levels, 0, no_stage);
-            finding_->instances.levels.dispatch(commands, 1);
-        });
+    graph::Handle scratch = boxes.scratch;
+    add(boxes, "pair boxes", finding_->instances.boxes,
+        {{0, boxes.shapes}, {2, boxes.instances}, {1, scratch, write}}, no_stage, no_stage);
+    add_pass(boxes.graph, "pair levels", finding_->instances.levels, {{1, scratch, write}},
+             [this](const ComputeShader& levels, VkCommandBuffer commands, const Input& input) {
+                 push(commands, input, levels, 0, no_stage);
+                 levels.dispatch(commands, 1);
+             });
 }
 
-/// A pass that writes into the scratch memory; the set says what it reads.
-void PairSearch::add(const char* name, const ComputeShader& shader, Set set,
+void PairSearch::add(Versions& at, const char* name, const ComputeShader& shader,
                      std::uint32_t threads_of) {
-    graph_.add_pass(
-        name, graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            if (set == of_instances) {
-                pass.read(instances_, Access::storage_read_in_compute);
-            }
-            pass.read(input_, Access::storage_read_in_compute);
-            if (threads_of != no_stage) {
-                pass.read(arguments_, Access::indirect_arguments);
-            }
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-        },
-        [this, &shader, set, threads_of](VkCommandBuffer commands, const Item& item) {
-            shader.bind(commands, item.sets[set]);
-            dispatch(commands, item, shader, threads_of, no_stage);
-        });
+    add(part_, name, shader,
+        {{0, at.shapes},
+         {1, at.scratch, write},
+         {graph::unbound, at.arguments, Access::indirect_arguments}},
+        threads_of, no_stage);
 }
 
 /// A pass that turns the sums of the blocks of a stage into places.
-void PairSearch::add_scan(const char* name, std::uint32_t stage) {
-    graph_.add_pass(
-        name, graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-            arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
-        },
-        [this, stage](VkCommandBuffer commands, const Item& item) {
-            const ComputeShader& scan = shaders_->scan;
-            scan.bind(commands, item.sets[of_points]);
-            push(commands, item, scan, 0, stage);
-            const auto& room = item.capacities;
+void PairSearch::add_scan(Versions& at, const char* name, std::uint32_t stage) {
+    add_pass(
+        part_.graph, name, shaders_->scan, {{1, at.scratch, write}, {3, at.arguments, write}},
+        [this, stage](const ComputeShader& scan, VkCommandBuffer commands, const Input& input) {
+            push(commands, input, scan, 0, stage);
+            const auto& room = input.capacities;
             scan.dispatch(commands, stage == plan::edge_total ? scan_groups(room[plan::item_total])
                                     : stage == plan::point_total
                                         ? scan_groups(room[plan::edge_total])
@@ -123,155 +100,105 @@ void PairSearch::add_scan(const char* name, std::uint32_t stage) {
         });
 }
 
-void PairSearch::declare_found_pairs() {
-    add("count pairs", finding_->counts, of_instances);
-    graph_.add_pass(
-        "list pairs", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(instances_, Access::storage_read_in_compute);
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-            arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
-        },
-        [this](VkCommandBuffer commands, const Item& item) {
-            finding_->lists.bind(commands, item.sets[of_instances]);
-            dispatch(commands, item, finding_->lists, no_stage, plan::pair_total);
-        });
-    add("pair directions", finding_->directions, of_instances, plan::pair_total);
+void PairSearch::declare_found_pairs(Versions& at) {
+    add(part_, "count pairs", finding_->counts,
+        {{0, at.shapes}, {2, at.instances}, {1, at.scratch, write}}, no_stage, no_stage);
+    add(part_, "list pairs", finding_->lists,
+        {{2, at.instances}, {1, at.scratch, write}, {3, at.arguments, write}}, no_stage,
+        plan::pair_total);
+    add(part_, "pair directions", finding_->directions,
+        {{0, at.shapes},
+         {2, at.instances},
+         {1, at.scratch, write},
+         {graph::unbound, at.arguments, Access::indirect_arguments}},
+        plan::pair_total, no_stage);
 }
 
-void PairSearch::declare_given_pairs() {
-    graph_.add_pass(
-        "given pairs", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(instances_, Access::storage_read_in_compute);
-            pass.read(input_, Access::storage_read_in_compute);
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-            arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
-        },
-        [this](VkCommandBuffer commands, const Item& item) {
-            given_->bind(commands, item.sets[of_instances]);
-            given_->dispatch_in_parts(commands, item.push.first_instance, item.push.end_instance,
-                                      [&](std::uint32_t first) {
-                                          push(commands, item, *given_, first, plan::pair_total);
-                                      });
-        });
+void PairSearch::declare_given_pairs(Versions& at) {
+    add_pass(part_.graph, "given pairs", *given_,
+             {{0, at.shapes}, {2, at.instances}, {1, at.scratch, write}, {3, at.arguments, write}},
+             [this](const ComputeShader& given, VkCommandBuffer commands, const Input& input) {
+                 given.dispatch_in_parts(commands, input.push.first_instance,
+                                         input.push.end_instance, [&](std::uint32_t first) {
+                                             push(commands, input, given, first, plan::pair_total);
+                                         });
+             });
 }
 
 /// The edges of the directions that are not far from the other shape.
-void PairSearch::declare_edges() {
-    add("pair items", shaders_->items, of_points, plan::item_total);
-    add_scan("count edges", plan::edge_total);
-    add("spread edges", shaders_->spread, of_points, plan::item_total);
+void PairSearch::declare_edges(Versions& at) {
+    add(at, "pair items", shaders_->items, plan::item_total);
+    add_scan(at, "count edges", plan::edge_total);
+    add(at, "spread edges", shaders_->spread, plan::item_total);
 }
 
-void PairSearch::declare_points(const plan::PairSearchKind& kind) {
+void PairSearch::declare_points(Versions& at, const plan::PairSearchKind& kind) {
     const bool finds_contacts = kind.goal == plan::PairGoal::contacts;
     if (finds_contacts) {
-        add("pair crossings", finding_->crossings, of_points, plan::edge_total);
+        add(at, "pair crossings", finding_->crossings, plan::edge_total);
     }
-    add("pair edges", shaders_->edges, of_points, plan::edge_total);
-    add_scan("count points", plan::point_total);
-    add("pair points", shaders_->points, of_points, plan::point_total);
+    add(at, "pair edges", shaders_->edges, plan::edge_total);
+    add_scan(at, "count points", plan::point_total);
+    add(at, "pair points", shaders_->points, plan::point_total);
     if (kind.points != plan::FoundPoints::compared) {
-        add_scan("count found points", plan::record_total);
+        add_scan(at, "count found points", plan::record_total);
     }
-    add_answers("pair summaries", finds_contacts ? finding_->contacts : shaders_->summaries);
+    add_answers(at, "pair summaries", finds_contacts ? finding_->contacts : shaders_->summaries);
     if (kind.reads_points()) {
-        add_packing();
+        add(part_, "pack points", shaders_->pack,
+            {{1, at.scratch},
+             {2, at.points, write},
+             {graph::unbound, at.arguments, Access::indirect_arguments}},
+            plan::point_total, no_stage);
     }
-}
-
-void PairSearch::add_packing() {
-    records_ = graph_.import_buffer({"pair points", false, true}, found_);
-    graph_.add_pass(
-        "pack points", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(arguments_, Access::indirect_arguments);
-            pass.read(scratch_, Access::storage_read_in_compute);
-            records_ = pass.write(records_, Access::storage_write_in_compute);
-        },
-        [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->pack.bind(commands, item.sets[of_points]);
-            dispatch(commands, item, shaders_->pack, plan::point_total, no_stage);
-        });
 }
 
 /// The answers of the pairs, of which the rows are made.
-void PairSearch::add_answers(const char* name, const ComputeShader& shader) {
-    graph_.add_pass(
-        name, graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(input_, Access::storage_read_in_compute);
-            pass.read(arguments_, Access::indirect_arguments);
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-            counts_ = pass.write(counts_, Access::storage_write_in_compute);
-        },
-        [this, &shader](VkCommandBuffer commands, const Item& item) {
-            shader.bind(commands, item.sets[of_rows]);
-            dispatch(commands, item, shader, plan::pair_total, plan::record_total);
-        });
+void PairSearch::add_answers(Versions& at, const char* name, const ComputeShader& shader) {
+    add(part_, name, shader,
+        {{0, at.shapes},
+         {1, at.scratch, write},
+         {3, at.counts, write},
+         {graph::unbound, at.arguments, Access::indirect_arguments}},
+        plan::pair_total, plan::record_total);
 }
 
-void PairSearch::declare_rows() {
-    graph_.add_pass(
-        "pair rows", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(arguments_, Access::indirect_arguments);
-            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
-            counts_ = pass.write(counts_, Access::storage_write_in_compute);
-            static_cast<void>(pass.write(row_buffer_, Access::storage_write_in_compute));
-        },
-        [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->rows.bind(commands, item.sets[of_rows]);
-            dispatch(commands, item, shaders_->rows, plan::pair_total, plan::row_total);
-        });
+void PairSearch::declare_rows(Versions& at) {
+    add(part_, "pair rows", shaders_->rows,
+        {{1, at.scratch, write},
+         {2, at.rows, write},
+         {3, at.counts, write},
+         {graph::unbound, at.arguments, Access::indirect_arguments}},
+        plan::pair_total, plan::row_total);
 }
 
-void PairSearch::record_boxes(VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                              const Item& item) const {
-    graph::Executor& executor = boxes_->graph.executor();
-    executor.set_buffer(boxes_->input, item.shapes);
-    executor.set_buffer(boxes_->instances, item.instances);
-    executor.set_buffer(boxes_->scratch, item.scratch);
-    boxes_->graph.execute(commands, timestamps, item);
+void PairSearch::add(Passes& passes, const char* name, const ComputeShader& shader,
+                     std::initializer_list<graph::Bound> bound, std::uint32_t threads_of,
+                     std::uint32_t stage) {
+    add_pass(passes.graph, name, shader, bound,
+             [this, threads_of, stage, arguments = passes.arguments](
+                 const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
+                 if (threads_of == no_stage) {
+                     of.dispatch_in_parts(
+                         commands, 0, input.push.instances,
+                         [&](std::uint32_t first) { push(commands, input, of, first, stage); });
+                 } else {
+                     push(commands, input, of, 0, stage);
+                     of.dispatch_indirect(commands, commands.part(arguments).buffer,
+                                          search_argument_bytes * threads_of);
+                 }
+             });
 }
 
-void PairSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                        const Item& item) const {
-    graph::Executor& executor = graph_.executor();
-    executor.set_buffer(input_, item.shapes);
-    executor.set_buffer(instances_, item.instances);
-    executor.set_buffer(scratch_, item.scratch);
-    executor.set_buffer(arguments_, item.arguments);
-    if (records_ != graph::Handle{}) {
-        executor.set_buffer(records_, item.records);
-    }
-    executor.set_buffer(row_buffer_, item.rows);
-    executor.set_buffer(counts_, item.counts);
-    graph_.execute(commands, timestamps, item);
-}
-
-void PairSearch::push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
+void PairSearch::push(VkCommandBuffer commands, const Input& input, const ComputeShader& shader,
                       std::uint32_t first, std::uint32_t stage) const {
-    plan::SearchPush push = item.push;
+    plan::SearchPush push = input.push;
     push.flags = flags_;
     push.first = first;
     push.stage = stage;
-    push.capacity = stage < item.capacities.size() ? item.capacities[stage] : 0;
-    push.second_capacity = item.capacities[plan::item_total];
+    push.capacity = stage < input.capacities.size() ? input.capacities[stage] : 0;
+    push.second_capacity = input.capacities[plan::item_total];
     shader.push(commands, push);
-}
-
-void PairSearch::dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
-                          std::uint32_t threads_of, std::uint32_t stage) const {
-    if (threads_of == no_stage) {
-        shader.dispatch_in_parts(commands, 0, item.push.instances, [&](std::uint32_t first) {
-            push(commands, item, shader, first, stage);
-        });
-        return;
-    }
-    push(commands, item, shader, 0, stage);
-    shader.dispatch_indirect(commands, item.arguments, search_argument_bytes * threads_of);
 }
 
 }  // namespace nearfield::passes

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/timestamps.hpp>
 #include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <nearfield/diagnostics.hpp>
@@ -11,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -29,82 +29,69 @@ namespace nearfield::passes {
 class PairSearch {
 public:
     /// The shaders must stay. `finding`: null where the pairs are given.
-    PairSearch(const gpu::Device& device, const ComputeLayout& layout, const SearchShaders* shaders,
-               const FoundPairShaders* finding, const plan::PairSearchKind& kind);
+    PairSearch(const gpu::Device& device, const graph::ComputeLayout& layout,
+               const SearchShaders* shaders, const FoundPairShaders* finding,
+               const plan::PairSearchKind& kind);
+    PairSearch(const PairSearch&) = delete;
+    PairSearch& operator=(const PairSearch&) = delete;
 
-    /// The descriptor sets of one search: for the passes about instances or given pairs, those
-    /// about points, and those about the answers of pairs.
-    enum Set : std::uint8_t { of_instances, of_points, of_rows };
-    static constexpr std::size_t set_count = 3;
-
-    /// What the search of one part is recorded from. Its push constants name the part.
-    struct Item {
-        std::array<VkDescriptorSet, set_count> sets{};
-        VkBuffer shapes = VK_NULL_HANDLE;
-        VkBuffer instances = VK_NULL_HANDLE;  ///< or the given pairs
-        VkBuffer scratch = VK_NULL_HANDLE;
-        VkBuffer arguments = VK_NULL_HANDLE;
-        VkBuffer records = VK_NULL_HANDLE;
-        VkBuffer rows = VK_NULL_HANDLE;
-        VkBuffer counts = VK_NULL_HANDLE;
-        plan::SearchPush push{};  ///< without stage, capacities and flags
+    /// What they are recorded from, beside the resources that they bind.
+    struct Input {
+        plan::SearchPush push{};  ///< without stage, capacities and flags; names the part
         /// How many elements of each stage there is room for.
         std::array<std::uint32_t, plan::stages_of_pairs> capacities{};
     };
-    /// Once, before the parts, if the pairs are found. The item is that of any part.
-    void record_boxes(VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                      const Item& item) const;
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
-
-    static constexpr std::uint32_t passes_of_boxes = 2;
-    static constexpr std::uint32_t max_passes_of_part = 14;
+    struct Passes {
+        graph::RecordedGraph<Input> graph;
+        graph::Handle shapes;
+        graph::Handle instances;  ///< or the given pairs
+        graph::Handle scratch;
+        graph::Handle arguments;  ///< of a part, as are those that follow
+        graph::Handle points;     ///< null where the host reads none
+        graph::Handle rows;
+        graph::Handle counts;
+    };
+    /// Once, before the parts, with the push constants of any part; null if the pairs are given.
+    [[nodiscard]] const Passes* boxes() const { return boxes_ ? &*boxes_ : nullptr; }
+    [[nodiscard]] const Passes& part() const { return part_; }
 
     [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
         return (boxes_ ? boxes_->graph.print(format, "boxes of pairs") : "") +
-               graph_.print(format, title);
+               part_.graph.print(format, title);
     }
 
 private:
     /// One thread per element that a stage has counted, or, without a stage, per instance.
     static constexpr std::uint32_t no_stage = UINT32_MAX;
 
-    void declare_boxes();
-    void declare_found_pairs();
-    void declare_given_pairs();
-    void declare_edges();
-    void declare_points(const plan::PairSearchKind& kind);
-    void declare_rows();
-    void add(const char* name, const ComputeShader& shader, Set set,
-             std::uint32_t threads_of = no_stage);
-    void add_scan(const char* name, std::uint32_t stage);
-    void add_packing();
-    void add_answers(const char* name, const ComputeShader& shader);
-    void dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
-                  std::uint32_t threads_of, std::uint32_t stage) const;
-    void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
-              std::uint32_t first, std::uint32_t stage) const;
-
-    struct Boxes {
-        graph::RecordedGraph<Item> graph;
-        graph::Handle input;
-        graph::Handle instances;
-        graph::Handle scratch;
+    /// The versions of the buffers of a part between passes.
+    struct Versions {
+        graph::Handle shapes, instances, scratch, arguments, points, rows, counts;
     };
+
+    void declare_boxes();
+    void declare_found_pairs(Versions& at);
+    void declare_given_pairs(Versions& at);
+    void declare_edges(Versions& at);
+    void declare_points(Versions& at, const plan::PairSearchKind& kind);
+    void declare_rows(Versions& at);
+    /// Adds a pass of a part that writes into the scratch memory, with a thread per edge or point.
+    void add(Versions& at, const char* name, const ComputeShader& shader, std::uint32_t threads_of);
+    void add_scan(Versions& at, const char* name, std::uint32_t stage);
+    void add_answers(Versions& at, const char* name, const ComputeShader& shader);
+    /// Adds any pass. `stage`: that the shader counts.
+    void add(Passes& passes, const char* name, const ComputeShader& shader,
+             std::initializer_list<graph::Bound> bound, std::uint32_t threads_of,
+             std::uint32_t stage);
+    void push(VkCommandBuffer commands, const Input& input, const ComputeShader& shader,
+              std::uint32_t first, std::uint32_t stage) const;
 
     const SearchShaders* shaders_;
     const FoundPairShaders* finding_;
     std::optional<ComputeShader> given_;  // where the pairs are
     std::uint32_t flags_;                 // of the push constants
-    std::optional<Boxes> boxes_;          // where the pairs are found
-    graph::RecordedGraph<Item> graph_;    // of a part
-    graph::Handle input_;
-    graph::Handle instances_;
-    graph::Handle scratch_;
-    graph::Handle arguments_;
-    graph::ExternalAccess found_;  // before, of what the host reads
-    graph::Handle records_;        // none where the host reads none
-    graph::Handle row_buffer_;
-    graph::Handle counts_;
+    std::optional<Passes> boxes_;         // where the pairs are found
+    Passes part_;
 };
 
 }  // namespace nearfield::passes

@@ -60,7 +60,7 @@ void dispatch_gradients(const ComputeShader& shader, VkCommandBuffer commands,
 
 }  // namespace
 
-ResolveField::ResolveField(const gpu::Device& device, const ComputeLayout& layout)
+ResolveField::ResolveField(const gpu::Device& device, const graph::ComputeLayout& layout)
     : cells_(device, layout, shaders::resolve_field_comp, "nearfield resolve field"),
       points_(device, layout, shaders::resolve_field_points_comp, "nearfield resolve field points"),
       gradients_(device, layout, shaders::collect_gradients_comp, "nearfield collect gradients") {}

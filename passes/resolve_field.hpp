@@ -21,7 +21,7 @@ struct FieldImages {
 /// What is read back of the fields of the raster technique, tile after tile or point after point.
 class ResolveField {
 public:
-    ResolveField(const gpu::Device& device, const ComputeLayout& layout);
+    ResolveField(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// Adds the pass for the requested outputs at every cell of the field tiles (section 2.2.2 of
     /// the paper): the signed distance at its centre, in cells, and the nearest of B's edges (a

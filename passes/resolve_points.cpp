@@ -4,7 +4,7 @@
 
 namespace nearfield::passes {
 
-ResolvePoints::ResolvePoints(const gpu::Device& device, const ComputeLayout& layout)
+ResolvePoints::ResolvePoints(const gpu::Device& device, const graph::ComputeLayout& layout)
     : shader_(device, layout, shaders::resolve_points_comp, "nearfield resolve points") {}
 
 void ResolvePoints::declare(TileGraph& graph, graph::Handle input, graph::Handle results,

@@ -13,7 +13,7 @@ namespace nearfield::passes {
 /// flags).
 class ResolvePoints {
 public:
-    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout);
+    ResolvePoints(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// Adds the pass. `features`, `sign`: images.
     void declare(TileGraph& graph, graph::Handle input, graph::Handle results,

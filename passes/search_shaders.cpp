@@ -26,7 +26,7 @@ bool reads_texels(const gpu::Device& device) {
     return limits.maxTexelBufferElements >= limits.maxStorageBufferRange / plan::bytes_of_unit;
 }
 
-ComputeShader make_search_shader(const gpu::Device& device, const ComputeLayout& layout,
+ComputeShader make_search_shader(const gpu::Device& device, const graph::ComputeLayout& layout,
                                  gpu::Spirv code, const char* name) {
     return {device, layout, code, name, search_constants(device)};
 }
@@ -37,12 +37,12 @@ std::array<VkBool32, 1> search_constants(const gpu::Device& device) {
     return {reads_texels(device) ? VK_TRUE : VK_FALSE};
 }
 
-InstanceShaders::InstanceShaders(const gpu::Device& device, const ComputeLayout& layout)
+InstanceShaders::InstanceShaders(const gpu::Device& device, const graph::ComputeLayout& layout)
     : boxes(make_search_shader(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes")),
       levels(
           make_search_shader(device, layout, shaders::pair_levels_comp, "nearfield pair levels")) {}
 
-SearchShaders::SearchShaders(const gpu::Device& device, const ComputeLayout& layout)
+SearchShaders::SearchShaders(const gpu::Device& device, const graph::ComputeLayout& layout)
     : items(make_search_shader(device, layout, shaders::search_items_comp, "nearfield pair items")),
       scan(make_search_shader(device, layout, shaders::search_scan_comp, "nearfield pair scan")),
       spread(
@@ -55,7 +55,7 @@ SearchShaders::SearchShaders(const gpu::Device& device, const ComputeLayout& lay
       pack(make_search_shader(device, layout, shaders::search_pack_comp, "nearfield pair packing")),
       rows(make_search_shader(device, layout, shaders::pair_rows_comp, "nearfield pair rows")) {}
 
-FoundPairShaders::FoundPairShaders(const gpu::Device& device, const ComputeLayout& layout,
+FoundPairShaders::FoundPairShaders(const gpu::Device& device, const graph::ComputeLayout& layout,
                                    const InstanceShaders* instance_shaders)
     : instances(*instance_shaders),
       counts(

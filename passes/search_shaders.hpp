@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <passes/compute_layout.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <passes/compute_shader.hpp>
 
 #include <shaders/push.h>
@@ -33,7 +33,7 @@ inline constexpr VkDeviceSize search_argument_bytes =
 
 /// The shaders that make the boxes of a world's instances, and the levels above them.
 struct InstanceShaders {
-    InstanceShaders(const gpu::Device& device, const ComputeLayout& layout);
+    InstanceShaders(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     ComputeShader boxes;
     ComputeShader levels;
@@ -41,7 +41,7 @@ struct InstanceShaders {
 
 /// The shaders of all searches between pairs (PairSearch), given or found.
 struct SearchShaders {
-    SearchShaders(const gpu::Device& device, const ComputeLayout& layout);
+    SearchShaders(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     ComputeShader items;
     ComputeShader scan;
@@ -56,7 +56,7 @@ struct SearchShaders {
 /// Those that find the pairs of a world's instances, and what can be asked of these alone.
 struct FoundPairShaders {
     /// `instance_shaders` have to stay.
-    FoundPairShaders(const gpu::Device& device, const ComputeLayout& layout,
+    FoundPairShaders(const gpu::Device& device, const graph::ComputeLayout& layout,
                      const InstanceShaders* instance_shaders);
 
     const InstanceShaders& instances;

@@ -27,7 +27,7 @@ ShaderOfQuestion shader_of(plan::WorldQuestion question) {
     return {shaders::world_poses_comp, "pose tests"};
 }
 
-ComputeShader make_query_shader(const gpu::Device& device, const ComputeLayout& layout,
+ComputeShader make_query_shader(const gpu::Device& device, const graph::ComputeLayout& layout,
                                 const ShaderOfQuestion& shader) {
     const std::string name = std::string("nearfield ") + shader.pass;
     return {device, layout, shader.code, name.c_str(), search_constants(device)};
@@ -44,7 +44,7 @@ plan::SearchPush push_of_boxes(const plan::WorldQueryPush& push, std::uint32_t f
 
 }  // namespace
 
-WorldQueries::WorldQueries(const gpu::Device& device, const ComputeLayout& layout,
+WorldQueries::WorldQueries(const gpu::Device& device, const graph::ComputeLayout& layout,
                            const InstanceShaders* instance_shaders, plan::WorldQuestion question)
     : shader(make_query_shader(device, layout, shader_of(question))),
       shapes(graph.import_buffer({"shapes", true, false})),

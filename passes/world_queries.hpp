@@ -16,7 +16,7 @@ namespace nearfield::passes {
 /// these for each question; and a copy of the answers for the CPU.
 struct WorldQueries {
     /// The shaders of the instances must stay.
-    WorldQueries(const gpu::Device& device, const ComputeLayout& layout,
+    WorldQueries(const gpu::Device& device, const graph::ComputeLayout& layout,
                  const InstanceShaders* instance_shaders, plan::WorldQuestion question);
 
     /// What they are recorded from, beside the resources that they bind.

@@ -46,14 +46,15 @@ bool MappedBuffer::reserve(std::uint64_t bytes) {
     // Free the former buffer first, so that both never occupy memory at the same time.
     capacity_ = 0;
     data_ = nullptr;
-    buffer_.reset();
-    memory_.reset();
+    release();
     try {
         create_buffer(capacity);
         allocate_memory();
+        if ((usage_ & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT) != 0) {
+            create_texels(capacity);
+        }
     } catch (...) {
-        buffer_.reset();
-        memory_.reset();
+        release();
         throw;
     }
     capacity_ = capacity;
@@ -64,7 +65,7 @@ bool MappedBuffer::reserve(std::uint64_t bytes) {
 BufferPart MappedBuffer::part(std::uint64_t offset, std::uint64_t bytes) const {
     constexpr std::uint64_t unit = 16;
     const std::uint64_t units = std::max<std::uint64_t>((bytes + unit - 1) / unit, 1);
-    return {buffer_.get(), offset, units * unit, VK_NULL_HANDLE, identity_};
+    return {buffer_.get(), offset, units * unit, texels_.get(), identity_};
 }
 
 std::uint64_t MappedBuffer::grown(std::uint64_t bytes) const {
@@ -103,6 +104,24 @@ void MappedBuffer::allocate_memory() {
     data_ = memory_.data();
 }
 
+void MappedBuffer::create_texels(std::uint64_t bytes) {
+    constexpr std::uint64_t texel_bytes = 16;
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = buffer_.get();
+    info.format = VK_FORMAT_R32G32B32A32_UINT;
+    info.range = texel_bytes * std::min<std::uint64_t>(bytes / texel_bytes,
+                                                       device_->limits().maxTexelBufferElements);
+    const std::string name = name_ + " as texels";
+    texels_ = make_object(*device_, info, name, name);
+}
+
+void MappedBuffer::release() {
+    texels_.reset();
+    buffer_.reset();
+    memory_.reset();
+}
+
 VkMappedMemoryRange MappedBuffer::range() const {
     return {VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, nullptr, memory_.get(), memory_.offset(),
             memory_.size()};
@@ -122,18 +141,6 @@ void MappedBuffer::invalidate() const {
         check(device_->functions().vkInvalidateMappedMemoryRanges(device_->handle(), 1, &whole),
               "vkInvalidateMappedMemoryRanges", name_);
     }
-}
-
-Owned<VkBufferView> make_texel_view(const Device& device, const MappedBuffer& buffer,
-                                    const std::string& name) {
-    constexpr std::uint64_t texel_bytes = 16;
-    VkBufferViewCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
-    info.buffer = buffer.handle();
-    info.format = VK_FORMAT_R32G32B32A32_UINT;
-    info.range = texel_bytes * std::min<std::uint64_t>(buffer.capacity() / texel_bytes,
-                                                       device.limits().maxTexelBufferElements);
-    return make_object(device, info, name, name);
 }
 
 }  // namespace nearfield::gpu

@@ -28,7 +28,9 @@ struct BufferPart {
     friend bool operator==(const BufferPart&, const BufferPart&) = default;
 };
 
-/// A buffer that only grows; permanently mapped if the host accesses it.
+/// A buffer that only grows; permanently mapped if the host accesses it. With
+/// VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT it has a view as texels of four unsigned numbers: of
+/// all of it, or of as many as the device allows.
 class MappedBuffer {
 public:
     /// `families`: the queue families that share the buffer, borrowed; fewer than two: exclusive.
@@ -58,6 +60,8 @@ private:
     [[nodiscard]] std::uint64_t grown(std::uint64_t bytes) const;
     void create_buffer(std::uint64_t bytes);
     void allocate_memory();
+    void create_texels(std::uint64_t bytes);
+    void release();
     [[nodiscard]] VkMappedMemoryRange range() const;
 
     const Device* device_;
@@ -67,15 +71,11 @@ private:
     std::span<const std::uint32_t> families_;
     DeviceMemory memory_;  // declared before the buffer bound to it, so it is freed after
     Owned<VkBuffer> buffer_;
+    Owned<VkBufferView> texels_;
     std::byte* data_ = nullptr;
     std::uint64_t capacity_ = 0;
     std::uint64_t identity_ = 0;
     bool coherent_ = true;
 };
-
-/// Makes a view of a buffer as texels of four unsigned numbers: of all of it, or of as many as the
-/// device allows.
-[[nodiscard]] Owned<VkBufferView> make_texel_view(const Device& device, const MappedBuffer& buffer,
-                                                  const std::string& name);
 
 }  // namespace nearfield::gpu

@@ -10,14 +10,6 @@ void PassBuilder::read(Handle handle, Access access) {
     pass_.uses.push_back({.handle = handle, .access = access, .write = false});
 }
 
-void PassBuilder::read(std::span<const Read> reads) {
-    for (const Read& each : reads) {
-        if (each.handle != Handle{}) {
-            read(each.handle, each.access);
-        }
-    }
-}
-
 Handle PassBuilder::write(Handle handle, Access access) {
     pass_.uses.push_back({.handle = handle, .access = access, .write = true});
     return {.resource = handle.resource, .version = handle.version + 1};

@@ -111,20 +111,12 @@ struct Pass {
     std::vector<Binding> bindings;
 };
 
-/// What a pass reads, and how.
-struct Read {
-    Handle handle;
-    Access access{};
-};
-
 /// Declares, inside add_pass, the reads and writes of a pass.
 class PassBuilder {
 public:
     explicit PassBuilder(Pass& pass) : pass_(pass) {}
 
     void read(Handle handle, Access access);
-    /// Reads all whose handle is not null.
-    void read(std::span<const Read> reads);
     /// Returns the handle of the new version. The former content is kept if the version is above 0
     /// (or the host wrote it); a version 0 is undefined to the pass, which has to initialise the
     /// parts it uses.

@@ -7,7 +7,6 @@
 #include <engine/graph/print.hpp>
 
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <string>
 #include <utility>
@@ -36,20 +35,6 @@ public:
         records_.push_back(std::move(record));
     }
 
-    /// Adds a pass that reads resources (null handles are left out) and writes a buffer from
-    /// compute shaders; returns the buffer's new version.
-    [[nodiscard]] Handle add_compute_pass(std::string name, std::initializer_list<Read> reads,
-                                          Handle output, Record record) {
-        add_pass(
-            std::move(name), PassKind::compute,
-            [&](PassBuilder& pass) {
-                pass.read(reads);
-                output = pass.write(output, Access::storage_write_in_compute);
-            },
-            std::move(record));
-        return output;
-    }
-
     /// Makes the Vulkan objects, once all passes are declared.
     void compile(const gpu::Device& device) {
         device_ = &device;
@@ -73,13 +58,6 @@ public:
             records_[pass](PassCommands(into, &resources, pass), input);
         };
         executor_->execute(*this, commands, timestamps, std::ref(record));
-    }
-    /// The same of passes that bind nothing, with what the executor was given.
-    void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Input& input) const {
-        executor_->execute(*this, commands, timestamps,
-                           [this, &input](std::size_t pass, VkCommandBuffer into) {
-                               records_[pass](PassCommands(into, nullptr, pass), input);
-                           });
     }
 
     [[nodiscard]] std::string print(GraphFormat format, const char* title) const {

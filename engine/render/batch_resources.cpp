@@ -45,7 +45,7 @@ std::span<const Element> elements_at(const gpu::MappedBuffer& buffer, std::uint6
 
 }  // namespace
 
-BatchResources::BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
+BatchResources::BatchResources(const gpu::Device& device, const graph::ComputeLayout& layout,
                                const PipelineSet& passes, bool timestamps)
     : device_(&device),
       layout_(&layout),
@@ -116,16 +116,17 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
 void BatchResources::upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
                                    const PairCounts& expected) {
     if (search_ == nullptr) {
-        search_ = std::make_unique<GivenSearch>(*device_, *layout_);
+        search_ = std::make_unique<GivenSearch>(*device_, *layout_,
+                                                pipelines_->pair_search(plan::given_pairs));
     }
     search_->upload(shapes, pairs, expected);
     if (has_resident_outputs_) {
         updates_.begin();
-        resident_.bind_records(search_->shapes(), search_->found().scratch_part(),
+        resident_.bind_records(search_->shapes(), search_->found().scratch(),
                                pipelines_->exports().records, updates_);
         updates_.end();
     }
-    timestamps_.reserve(passes_ + search_->passes());
+    timestamps_.reserve(passes_ + static_cast<std::uint32_t>(search_->found().count_passes()));
     is_searching_ = true;
 }
 
@@ -188,7 +189,7 @@ void BatchResources::run_those_without_room() {
     is_searching_ = is_searching_ && !search_->had_room();
     if (is_searching_) {
         search_->grow();
-        timestamps_.reserve(passes_ + search_->passes());
+        timestamps_.reserve(passes_ + static_cast<std::uint32_t>(search_->found().count_passes()));
     }
 }
 

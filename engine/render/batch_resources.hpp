@@ -5,6 +5,7 @@
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bound_resources.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/compiled_graph.hpp>
@@ -12,7 +13,6 @@
 #include <engine/render/given_search.hpp>
 #include <engine/render/pipeline_set.hpp>
 #include <engine/render/resident_buffers.hpp>
-#include <passes/compute_layout.hpp>
 #include <passes/record_context.hpp>
 
 #include <cstdint>
@@ -61,7 +61,7 @@ struct TileBatchOnDevice {
 class BatchResources {
 public:
     /// The passes must outlive this. `timestamps`: they are timed.
-    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
+    BatchResources(const gpu::Device& device, const graph::ComputeLayout& layout,
                    const PipelineSet& passes, bool timestamps);
     /// Waits for its own submission if the device is still working on it. Waiting for commands
     /// recorded for the host is up to the host.
@@ -156,7 +156,7 @@ private:
     void require_stamp();
 
     const gpu::Device* device_;
-    const passes::ComputeLayout* layout_;
+    const graph::ComputeLayout* layout_;
     const PipelineSet* pipelines_;
     gpu::Submission submission_;
     gpu::Timestamps timestamps_;
@@ -181,7 +181,7 @@ private:
         graph::BoundResources* current = nullptr;
 
         [[nodiscard]] graph::BoundResources& use(const std::shared_ptr<CompiledGraph>& graph,
-                                                 const passes::ComputeLayout& layout);
+                                                 const graph::ComputeLayout& layout);
     };
     std::vector<Bound> bound_;  // by tile batch
     std::optional<graph::BoundResources> bound_copies_;

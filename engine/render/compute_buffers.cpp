@@ -1,6 +1,5 @@
 #include <engine/gpu/buffer_parts.hpp>
 #include <engine/render/compute_buffers.hpp>
-#include <engine/render/search_memory.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -58,8 +57,7 @@ void ComputeBuffers::upload_shapes(const plan::ComputeWork& work) {
     shape_bytes_ = work.shape_bytes();
     shape_units_ = static_cast<std::uint32_t>(work.shapes->units().size());
     require_range(*device_, shape_bytes_, "the shapes");
-    const bool is_new = reserve_with_texels(*device_, shapes_, texels_, shape_bytes_,
-                                            "nearfield texels of shapes in tiles");
+    const bool is_new = shapes_.reserve(shape_bytes_);
     if (is_new || work.shapes->revision() != revision_) {
         std::copy(shapes.begin(), shapes.end(), shapes_.data());
         revision_ = work.shapes->revision();
@@ -95,9 +93,7 @@ bool ComputeBuffers::had_long_searches() const {
 void ComputeBuffers::bind(const TileHandles& handles, graph::BoundResources& resources) const {
     resources.set(handles.input, masks_.part(0, mask_bytes_), passes::input_parts::masks);
     resources.set(handles.scratch, scratch());
-    gpu::BufferPart shapes = shapes_.part(0, shape_bytes_);
-    shapes.texels = texels_.get();
-    resources.set(handles.shapes, shapes);
+    resources.set(handles.shapes, shapes_.part(0, shape_bytes_));
     resources.set(handles.crowd, crowd_.part(0, smallest_part));
     resources.set(handles.long_searches, long_searches_.part(0, smallest_part));
 }

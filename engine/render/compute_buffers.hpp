@@ -2,7 +2,6 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/graph/bound_resources.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/compiled_graph.hpp>
@@ -44,8 +43,7 @@ private:
     gpu::MappedBuffer shapes_;
     gpu::MappedBuffer crowd_;
     gpu::MappedBuffer long_searches_;
-    gpu::Owned<VkBufferView> texels_;  // of shapes_
-    std::uint64_t shape_bytes_ = 0;    // none: the last uploaded tile batch has no shapes in tiles
+    std::uint64_t shape_bytes_ = 0;  // none: the last uploaded tile batch has no shapes in tiles
     std::uint32_t shape_units_ = 0;
     std::uint64_t revision_ = 0;  // of the shapes in shapes_
 };

@@ -37,12 +37,13 @@ PairCounts most_of(const plan::GivenPairs& pairs) {
 
 }  // namespace
 
-GivenSearch::GivenSearch(const gpu::Device& device, const passes::ComputeLayout& layout)
+GivenSearch::GivenSearch(const gpu::Device& device, const graph::ComputeLayout& layout,
+                         const passes::PairSearch& search)
     : device_(&device),
       shapes_(device),
       pairs_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
              "nearfield given pairs"),
-      memory_(device, layout, plan::given_pairs, false) {}
+      memory_(device, layout, search, plan::given_pairs, false) {}
 
 void GivenSearch::upload(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
                          const PairCounts& expected) {
@@ -67,7 +68,7 @@ void GivenSearch::upload(const plan::SearchShapes& shapes, const plan::GivenPair
 }
 
 void GivenSearch::lay_out() {
-    memory_.lay_out({&shapes_, pairs_.handle(), pair_bytes_, 0},
+    memory_.lay_out({shapes_.part(), pairs_.part(0, pair_bytes_), 0},
                     {.reach = std::min<std::uint64_t>(device_->limits().maxStorageBufferRange,
                                                       largest_allocation),
                      .memory = std::numeric_limits<std::uint64_t>::max()});

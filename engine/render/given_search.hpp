@@ -2,10 +2,10 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/plan/point_search.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/render/search_memory.hpp>
-#include <passes/compute_layout.hpp>
 #include <passes/pair_search.hpp>
 
 #include <cstdint>
@@ -16,16 +16,15 @@ namespace nearfield::render {
 /// for commands of others. It only grows.
 class GivenSearch {
 public:
-    GivenSearch(const gpu::Device& device, const passes::ComputeLayout& layout);
+    /// The passes must stay.
+    GivenSearch(const gpu::Device& device, const graph::ComputeLayout& layout,
+                const passes::PairSearch& search);
 
     /// Uploads pairs, of which there are some, and makes room for `expected` elements, or for as
     /// many as there can be. The device must not be using the memory. Throws StatusException
     /// (too_large) if the device cannot hold them.
     void upload(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
                 const PairCounts& expected);
-    [[nodiscard]] std::uint32_t passes() const {
-        return static_cast<std::uint32_t>(memory_.parts()) * passes::PairSearch::max_passes_of_part;
-    }
     /// Call once the device is done. Throws StatusException (device_error) if it counted more than
     /// there can be.
     void read_back();

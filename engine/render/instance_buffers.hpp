@@ -38,9 +38,6 @@ public:
     /// Differs if buffers or sizes are others than before.
     [[nodiscard]] std::uint32_t revision() const { return revision_; }
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    [[nodiscard]] const ShapeBuffer& shapes() const { return shapes_; }
-    [[nodiscard]] VkBuffer instances() const { return instances_.handle(); }
-    [[nodiscard]] std::uint64_t instance_bytes() const;
     /// What passes bind.
     [[nodiscard]] gpu::BufferPart shape_part() const { return shapes_.part(); }
     [[nodiscard]] gpu::BufferPart instance_part() const {
@@ -48,6 +45,8 @@ public:
     }
 
 private:
+    [[nodiscard]] std::uint64_t instance_bytes() const;
+
     ShapeBuffer shapes_;
     gpu::MappedBuffer instances_;
     std::uint32_t revision_ = 0;

@@ -5,13 +5,10 @@
 #include <shaders/pairs.h>
 
 #include <algorithm>
-#include <array>
 
 namespace nearfield::render {
 namespace {
 
-constexpr std::array<const char*, 1> name_of_record_set{"nearfield pair set of resident records"};
-constexpr std::array<const char*, 1> name_of_row_set{"nearfield pair set of resident rows"};
 constexpr VkBufferUsageFlags output_usage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
@@ -20,7 +17,7 @@ static_assert(sizeof(HeaderData) <= bytes_between_headers);
 
 }  // namespace
 
-PairOutputs::PairOutputs(const gpu::Device& device, const passes::ComputeLayout& layout)
+PairOutputs::PairOutputs(const gpu::Device& device, const graph::ComputeLayout& layout)
     : device_(&device),
       layout_(&layout),
       pairs_(device, output_usage, gpu::Direction::none, "nearfield resident pairs",
@@ -29,9 +26,12 @@ PairOutputs::PairOutputs(const gpu::Device& device, const passes::ComputeLayout&
                device.reader_families()),
       headers_(device, output_usage, gpu::Direction::none, "nearfield resident pair headers",
                device.reader_families()),
-      set_of_records_(device, layout, name_of_record_set) {}
+      updates_(device) {}
 
 void PairOutputs::set(const passes::ExportPairs& passes, const geometry::Vector& origin) {
+    if (passes_ != &passes) {
+        resources_.clear();
+    }
     if (passes_ != &passes || origin != origin_) {
         ++revision_;
     }
@@ -48,44 +48,35 @@ void PairOutputs::reserve(std::uint32_t pairs, std::uint32_t records) {
     record_room_ = records;
 }
 
-void PairOutputs::bind(const Input& input) {
-    using Layout = passes::ComputeLayout;
-    instances_ = input.instances;
-    const VkDescriptorSet set = set_of_records_[0];
-    layout_->begin_updates();
-    layout_->write_buffer(set, Layout::tiles, input.shapes.buffer, 0, input.shapes.bytes);
-    layout_->write_buffer(set, Layout::geometry, input.scratch.buffer, 0, input.scratch.bytes);
-    layout_->write_buffer(set, Layout::output, records_.handle(), 0,
-                          bytes_of_records(record_room_));
-    layout_->write_texels(set, Layout::texels, input.texels);
-    layout_->write_texels(set, Layout::scratch_texels, input.scratch_texels);
-    layout_->end_updates();
+void PairOutputs::bind(const SearchInput& input, const SearchMemory& search) {
+    while (resources_.size() < search.parts()) {
+        resources_.push_back(passes_->graph.make_resources(*layout_));
+    }
+    updates_.begin();
+    for (std::size_t i = 0; i < search.parts(); ++i) {
+        graph::BoundResources& resources = resources_[i];
+        resources.set(passes_->shapes, input.shapes);
+        resources.set(passes_->instances, input.instances);
+        resources.set(passes_->scratch, search.scratch());
+        resources.set(passes_->arguments, search.arguments());
+        resources.set(passes_->rows, search.part(i).row_part());
+        resources.set(passes_->pairs, pairs_.part(0, bytes_of_pairs(pair_room_)));
+        resources.set(passes_->records, records_.part(0, bytes_of_records(record_room_)));
+        resources.set(passes_->headers, headers_.part(0, 2 * bytes_between_headers));
+        updates_.add(resources);
+    }
+    updates_.end();
 }
 
-void PairOutputs::bind(std::size_t part, const InputOfPart& input) {
-    using Layout = passes::ComputeLayout;
-    using passes::ExportPairs;
-    if (part >= sets_of_rows_.size()) {
-        sets_of_rows_.emplace_back(*device_, *layout_, name_of_row_set);
-        items_.emplace_back();
-    }
-    ExportPairs::Item& item = items_[part];
-    item.search = &input.search;
-    item.sets[ExportPairs::of_records] = set_of_records_[0];
-    item.sets[ExportPairs::of_rows] = sets_of_rows_[part][0];
-    item.pairs = pairs_.handle();
-    item.records = records_.handle();
-    item.headers = headers_.handle();
-    item.origin = {static_cast<float>(origin_.x()), static_cast<float>(origin_.y())};
-    layout_->begin_updates();
-    const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
-        layout_->write_buffer(item.sets[ExportPairs::of_rows], binding, buffer, 0, bytes);
-    };
-    write(Layout::tiles, instances_.buffer, instances_.bytes);
-    write(Layout::geometry, item.headers, 2 * bytes_between_headers);
-    write(Layout::points, input.rows.buffer, input.rows.bytes);
-    write(Layout::output, item.pairs, bytes_of_pairs(pair_room_));
-    layout_->end_updates();
+void PairOutputs::record(std::size_t part, const passes::PairSearch::Input& input,
+                         VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
+    passes_->graph.execute(
+        commands, timestamps, resources_[part],
+        {input.push, {static_cast<float>(origin_.x()), static_cast<float>(origin_.y())}});
+}
+
+std::size_t PairOutputs::count_passes(std::size_t parts) const {
+    return is_set() ? parts * passes_->graph.passes().size() : 0;
 }
 
 PairsOnDevice PairOutputs::pairs() const {

@@ -4,9 +4,10 @@
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/graph/bound_resources.hpp>
+#include <engine/graph/compute_layout.hpp>
+#include <engine/render/search_memory.hpp>
 #include <nearfield/pairs_on_device.hpp>
-#include <passes/compute_layout.hpp>
-#include <passes/compute_sets.hpp>
 #include <passes/export_pairs.hpp>
 
 #include <cstddef>
@@ -18,7 +19,7 @@ namespace nearfield::render {
 /// What stays on the device of the search for all pairs of a world, if that is asked for.
 class PairOutputs {
 public:
-    PairOutputs(const gpu::Device& device, const passes::ComputeLayout& layout);
+    PairOutputs(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// From now on searches leave it there. `origin`: of the instances' places.
     void set(const passes::ExportPairs& passes, const geometry::Vector& origin);
@@ -36,41 +37,25 @@ public:
     /// Makes room for what a search has room for.
     void reserve(std::uint32_t pairs, std::uint32_t records);
 
-    /// A buffer of the search.
-    struct Range {
-        VkBuffer buffer = VK_NULL_HANDLE;
-        std::uint64_t bytes = 0;
-    };
-    struct Input {
-        Range shapes, instances, scratch;
-        VkBufferView texels, scratch_texels;
-    };
-    /// A part of it, which has to stay.
-    struct InputOfPart {
-        const passes::PairSearch::Item& search;
-        Range rows;
-    };
-    /// Say for which search the passes are recorded, and then for each of its parts. The device
-    /// must not be working at what was recorded before.
-    void bind(const Input& input);
-    void bind(std::size_t part, const InputOfPart& input);
-    void record(std::size_t part, VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
-        passes_->record(commands, timestamps, items_[part]);
-    }
+    /// Says for which search the passes are recorded. The device must not be working at what was
+    /// recorded before. `input`: what it was laid out with.
+    void bind(const SearchInput& input, const SearchMemory& search);
+    /// The passes that follow a part. `input`: its own.
+    void record(std::size_t part, const passes::PairSearch::Input& input, VkCommandBuffer commands,
+                gpu::Timestamps& timestamps) const;
+    [[nodiscard]] std::size_t count_passes(std::size_t parts) const;
 
     [[nodiscard]] PairsOnDevice pairs() const;
 
 private:
     const gpu::Device* device_;
-    const passes::ComputeLayout* layout_;
+    const graph::ComputeLayout* layout_;
     gpu::MappedBuffer pairs_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer headers_;
-    passes::DescriptorSets set_of_records_;
-    std::vector<passes::DescriptorSets> sets_of_rows_;  // by part, as are these
-    std::vector<passes::ExportPairs::Item> items_;
+    graph::DescriptorUpdates updates_;
     const passes::ExportPairs* passes_ = nullptr;
-    Range instances_;
+    std::vector<graph::BoundResources> resources_;  // by part
     geometry::Vector origin_ = geometry::Vector::Zero();
     std::uint32_t pair_room_ = 0;
     std::uint32_t record_room_ = 0;

@@ -12,23 +12,18 @@ namespace {
 /// In place of the number of pairs until the device has counted them.
 constexpr std::uint32_t not_counted = UINT32_MAX;
 
-constexpr std::uint32_t passes_of_parts(std::size_t parts) {
-    return passes::PairPoses::max_passes + passes::PairSearch::passes_of_boxes +
-           static_cast<std::uint32_t>(parts) *
-               (passes::PairSearch::max_passes_of_part + passes::ExportPairs::max_passes);
-}
-
 }  // namespace
 
-PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
+PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
+                                     const passes::PairSearch& passes,
                                      const plan::PairQuestion& question, bool timestamps)
     : device_(&device),
       submission_(device),
-      timestamps_(device, passes_of_parts(1), timestamps),
+      timestamps_(device, 0, timestamps),
       poses_(device, layout),
       outputs_(device, layout),
       world_(device),
-      memory_(device, layout, question.kind(), question.on_device) {}
+      memory_(device, layout, passes, question.kind(), question.on_device) {}
 
 PairSearchBuffers::~PairSearchBuffers() {
     if (is_submitted_) {
@@ -40,15 +35,17 @@ PairLimits PairSearchBuffers::limits() const {
     return {.reach = device_->limits().maxStorageBufferRange, .memory = memory_limit_};
 }
 
+SearchInput PairSearchBuffers::input() const {
+    return {world_.shape_part(), world_.instance_part(), world_.count()};
+}
+
 void PairSearchBuffers::lay_out() {
-    memory_.lay_out({&world_.shapes(), world_.instances(), world_.instance_bytes(), world_.count()},
-                    limits());
-    timestamps_.reserve(passes_of_parts(memory_.parts()));
+    memory_.lay_out(input(), limits());
     if (outputs_.is_set()) {
         std::uint32_t rows = 0;
         std::uint32_t records = 0;
         for (std::size_t i = 0; i < memory_.parts(); ++i) {
-            const auto& room = memory_.part(i).item().capacities;
+            const auto& room = memory_.part(i).input().capacities;
             rows += room[plan::row_total];
             records += room[plan::record_total];
         }
@@ -79,23 +76,14 @@ void PairSearchBuffers::prepare(bool takes_poses, std::uint32_t pairs) {
 
 /// Where poses come from, and where results go.
 void PairSearchBuffers::bind_ends(bool takes_poses) {
-    const PairOutputs::Range shapes{world_.shapes().handle(), world_.shapes().bytes()};
-    const PairOutputs::Range instances{world_.instances(), world_.instance_bytes()};
     if (takes_poses) {
-        poses_.bind({shapes.buffer, shapes.bytes}, world_.shapes().texels(),
-                    {instances.buffer, instances.bytes}, world_.count());
+        poses_.bind(input());
     }
     if (outputs_.is_set()) {
-        outputs_.bind({.shapes = shapes,
-                       .instances = instances,
-                       .scratch = {memory_.scratch(), memory_.scratch_bytes()},
-                       .texels = world_.shapes().texels(),
-                       .scratch_texels = memory_.scratch_texels()});
-        for (std::size_t i = 0; i < memory_.parts(); ++i) {
-            const PairPartMemory& part = memory_.part(i);
-            outputs_.bind(i, {part.item(), {part.item().rows, part.row_bytes()}});
-        }
+        outputs_.bind(input(), memory_);
     }
+    timestamps_.reserve(static_cast<std::uint32_t>(poses_.count_passes() + memory_.count_passes() +
+                                                   outputs_.count_passes(memory_.parts())));
 }
 
 void PairSearchBuffers::write_commands(VkCommandBuffer commands, bool takes_poses) {
@@ -103,11 +91,11 @@ void PairSearchBuffers::write_commands(VkCommandBuffer commands, bool takes_pose
     if (takes_poses) {
         poses_.record(commands, timestamps_);
     }
-    passes_->record_boxes(commands, timestamps_, memory_.part(0).item());
+    memory_.record_boxes(commands, timestamps_);
     for (std::size_t i = 0; i < memory_.parts(); ++i) {
-        passes_->record(commands, timestamps_, memory_.part(i).item());
+        memory_.record(i, commands, timestamps_);
         if (outputs_.is_set()) {
-            outputs_.record(i, commands, timestamps_);
+            outputs_.record(i, memory_.part(i).input(), commands, timestamps_);
         }
     }
 }
@@ -148,9 +136,7 @@ void PairSearchBuffers::grow() {
     is_laid_out_ = false;
 }
 
-void PairSearchBuffers::upload(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-                               std::uint64_t memory_limit) {
-    passes_ = &passes;
+void PairSearchBuffers::upload(const plan::SearchShapes& shapes, std::uint64_t memory_limit) {
     memory_limit_ = memory_limit;
     const bool had_results = std::exchange(has_results_, false);
     if (std::exchange(is_for_host_, false)) {
@@ -169,9 +155,9 @@ void PairSearchBuffers::upload(const passes::PairSearch& passes, const plan::Sea
     }
 }
 
-void PairSearchBuffers::begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-                              std::uint64_t memory_limit, Timings& timings) {
-    upload(passes, shapes, memory_limit);
+void PairSearchBuffers::begin(const plan::SearchShapes& shapes, std::uint64_t memory_limit,
+                              Timings& timings) {
+    upload(shapes, memory_limit);
     submit(poses_.is_set(), timings);
 }
 
@@ -193,10 +179,9 @@ void PairSearchBuffers::finish(Timings& timings) {
     read_results();
 }
 
-void PairSearchBuffers::record(VkCommandBuffer commands, const passes::PairSearch& passes,
-                               const plan::SearchShapes& shapes, std::uint64_t memory_limit,
-                               Timings& timings) {
-    upload(passes, shapes, memory_limit);
+void PairSearchBuffers::record(VkCommandBuffer commands, const plan::SearchShapes& shapes,
+                               std::uint64_t memory_limit, Timings& timings) {
+    upload(shapes, memory_limit);
     const Stopwatch start;
     prepare(poses_.is_set(), not_counted);
     device_->begin_label(commands, "nearfield");

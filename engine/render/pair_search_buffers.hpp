@@ -3,6 +3,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/render/instance_buffers.hpp>
@@ -10,7 +11,6 @@
 #include <engine/render/pose_source.hpp>
 #include <engine/render/search_memory.hpp>
 #include <nearfield/timings.hpp>
-#include <passes/compute_layout.hpp>
 #include <passes/pair_search.hpp>
 
 #include <shaders/pairs.h>
@@ -24,8 +24,10 @@ namespace nearfield::render {
 /// recorded for a host.
 class PairSearchBuffers {
 public:
-    PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
-                      const plan::PairQuestion& question, bool timestamps);
+    /// The passes must stay.
+    PairSearchBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
+                      const passes::PairSearch& passes, const plan::PairQuestion& question,
+                      bool timestamps);
     /// Waits for the device if it is still working.
     ~PairSearchBuffers();
     PairSearchBuffers(const PairSearchBuffers&) = delete;
@@ -40,12 +42,10 @@ public:
     [[nodiscard]] PairOutputs& outputs() { return outputs_; }
     [[nodiscard]] const PairOutputs& outputs() const { return outputs_; }
 
-    /// Lets the device find all pairs. The passes must stay until finish(), and nothing may be
-    /// changed. Throws StatusException, (too_large) if the device cannot hold those of one
-    /// instance, or they need more bytes than `memory_limit`. Adds the time of recording and
-    /// submission.
-    void begin(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-               std::uint64_t memory_limit, Timings& timings);
+    /// Lets the device find all pairs. Nothing may be changed until finish(). Throws
+    /// StatusException, (too_large) if the device cannot hold those of one instance, or they need
+    /// more bytes than `memory_limit`. Adds the time of recording and submission.
+    void begin(const plan::SearchShapes& shapes, std::uint64_t memory_limit, Timings& timings);
     /// Whether finish() need not wait for what was begun.
     [[nodiscard]] bool is_done() const { return !is_submitted_ || submission_.is_done(); }
     /// Waits for what was begun; submits as often as it takes to have room for all. Throws as
@@ -54,8 +54,8 @@ public:
 
     /// In place of begin(): records the same into a command buffer of the host, which may submit it
     /// again and again. Throws as begin(); then nothing is recorded.
-    void record(VkCommandBuffer commands, const passes::PairSearch& passes,
-                const plan::SearchShapes& shapes, std::uint64_t memory_limit, Timings& timings);
+    void record(VkCommandBuffer commands, const plan::SearchShapes& shapes,
+                std::uint64_t memory_limit, Timings& timings);
     /// In place of finish(), once the device is done, and as often as it is: reads what the last
     /// execution left. Throws StatusException: (not_executed) if there was none, (overflow) if it
     /// had no room, which the next begin() or record() makes. Adds the times of the passes.
@@ -84,9 +84,9 @@ public:
 
 private:
     [[nodiscard]] PairLimits limits() const;
+    [[nodiscard]] SearchInput input() const;
     void lay_out();
-    void upload(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-                std::uint64_t memory_limit);
+    void upload(const plan::SearchShapes& shapes, std::uint64_t memory_limit);
     // `takes_poses`: of the host; otherwise the instances are placed already.
     // `pairs`: see SearchMemory::clear_counts.
     void prepare(bool takes_poses, std::uint32_t pairs);
@@ -100,8 +100,7 @@ private:
     const gpu::Device* device_;
     gpu::Submission submission_;
     gpu::Timestamps timestamps_;
-    const passes::PairSearch* passes_ = nullptr;  // of the last search, as is the limit
-    std::uint64_t memory_limit_ = 0;
+    std::uint64_t memory_limit_ = 0;  // of the last search
     PoseSource poses_;
     PairOutputs outputs_;
     InstanceBuffers world_;

@@ -9,7 +9,7 @@
 
 namespace nearfield::render {
 
-RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
+RasterPipelines::RasterPipelines(const gpu::Device& device, const graph::ComputeLayout& layout)
     : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
                                                   device.stencil_format(), "stencil")),
       distance_render_pass_(passes::make_prototype(device, passes::number_format,
@@ -35,7 +35,7 @@ RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::Comput
       resolve_field(device, layout),
       collect(device, layout) {}
 
-ExportPipelines::ExportPipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
+ExportPipelines::ExportPipelines(const gpu::Device& device, const graph::ComputeLayout& layout)
     : copy_back(device),
       field(device, layout),
       records(device, layout),

@@ -2,10 +2,10 @@
 
 #include <engine/base/stopwatch.hpp>
 #include <engine/gpu/device.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <nearfield/context.hpp>
 #include <passes/collect.hpp>
 #include <passes/color_fill.hpp>
-#include <passes/compute_layout.hpp>
 #include <passes/cone_mesh.hpp>
 #include <passes/early_out.hpp>
 #include <passes/export_pairs.hpp>
@@ -33,7 +33,7 @@ namespace nearfield::render {
 /// The passes of the raster technique with their pipelines.
 class RasterPipelines {
 public:
-    RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout);
+    RasterPipelines(const gpu::Device& device, const graph::ComputeLayout& layout);
 
 private:
     // Render passes that pipelines are made for; compatible with those that graphs make.
@@ -61,7 +61,7 @@ public:
 
 /// The passes of resident outputs, with their pipelines.
 struct ExportPipelines {
-    ExportPipelines(const gpu::Device& device, const passes::ComputeLayout& layout);
+    ExportPipelines(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     passes::CopyBack copy_back;
     passes::ExportField field;
@@ -74,7 +74,7 @@ struct ExportPipelines {
 /// and throws StatusException as the driver fails.
 class PipelineSet {
 public:
-    PipelineSet(const gpu::Device& device, const passes::ComputeLayout& layout)
+    PipelineSet(const gpu::Device& device, const graph::ComputeLayout& layout)
         : device_(&device), layout_(&layout) {}
     /// Makes all of these techniques.
     void make(const DeviceTechniques& techniques) const;
@@ -109,7 +109,7 @@ private:
     }
 
     const gpu::Device* device_;
-    const passes::ComputeLayout* layout_;
+    const graph::ComputeLayout* layout_;
     mutable double milliseconds_ = 0.0;
     mutable std::optional<ExportPipelines> exports_;
     mutable std::optional<RasterPipelines> raster_;

@@ -1,3 +1,4 @@
+#include <engine/base/unique_numbers.hpp>
 #include <engine/plan/check_target.hpp>
 #include <engine/render/pose_source.hpp>
 
@@ -10,7 +11,6 @@
 namespace nearfield::render {
 namespace {
 
-constexpr std::array<const char*, 1> names_of_pose_sets{"nearfield pair set of poses"};
 constexpr std::uint64_t bytes_of_pose = sizeof(std::array<float, 4>);
 
 /// A float that is not above the value.
@@ -21,13 +21,11 @@ float rounded_down(double value) {
 
 }  // namespace
 
-PoseSource::PoseSource(const gpu::Device& device, const passes::ComputeLayout& layout)
+PoseSource::PoseSource(const gpu::Device& device, const graph::ComputeLayout& layout)
     : layout_(&layout),
       taken_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
              gpu::Direction::readback, "nearfield pair poses"),
-      sets_(device, layout, names_of_pose_sets) {
-    item_.set = sets_[0];
-}
+      updates_(device) {}
 
 void PoseSource::set(const passes::PairPoses& passes, const DevicePoses& poses,
                      std::uint32_t elements, double farthest) {
@@ -40,30 +38,30 @@ void PoseSource::set(const passes::PairPoses& passes, const DevicePoses& poses,
     poses_ = poses;
     bytes_ = bytes;
     const double origin = std::max(std::abs(poses.origin.x), std::abs(poses.origin.y));
-    item_.poses = {poses.buffer, poses.offset, bytes_,
-                   graph::ExternalUses{{poses.before.stages, poses.before.access}, {}}};
-    item_.push.stride = poses.stride / sizeof(float);
-    item_.push.largest = rounded_down(largest_coordinate - origin);
-    item_.push.origin = std::nextafter(static_cast<float>(origin), INFINITY);
-    item_.push.farthest = rounded_down(farthest);
+    push_.stride = poses.stride / sizeof(float);
+    push_.largest = rounded_down(largest_coordinate - origin);
+    push_.origin = std::nextafter(static_cast<float>(origin), INFINITY);
+    push_.farthest = rounded_down(farthest);
 }
 
-void PoseSource::bind(const Part& shapes, VkBufferView texels, const Part& instances,
-                      std::uint32_t instance_count) {
-    using Layout = passes::ComputeLayout;
-    taken_.reserve(bytes_of_pose * (1 + std::uint64_t{instance_count}));
-    layout_->begin_updates();
-    layout_->write_buffer(item_.set, Layout::tiles, shapes.buffer, 0, shapes.bytes);
-    layout_->write_texels(item_.set, Layout::texels, texels);
-    layout_->write_host_buffer(item_.set, Layout::geometry, poses_.buffer, poses_.offset, bytes_);
-    layout_->write_buffer(item_.set, Layout::points, instances.buffer, 0, instances.bytes);
-    layout_->write_buffer(item_.set, Layout::output, taken_.handle(), 0,
-                          bytes_of_pose * (1 + std::uint64_t{instance_count}));
-    layout_->end_updates();
-    item_.shapes = shapes.buffer;
-    item_.instances = instances.buffer;
-    item_.taken = taken_.handle();
-    item_.push.instances = instance_count;
+void PoseSource::bind(const SearchInput& input) {
+    const std::uint64_t bytes = bytes_of_pose * (1 + std::uint64_t{input.instance_count});
+    taken_.reserve(bytes);
+    if (passes_of_resources_ != passes_) {
+        resources_.emplace(passes_->graph.make_resources(*layout_));
+        passes_of_resources_ = passes_;
+    }
+    // Another buffer of the host's may have the handle of one that is gone.
+    resources_->set(passes_->poses,
+                    {poses_.buffer, poses_.offset, bytes_, VK_NULL_HANDLE, next_revision()},
+                    graph::ExternalUses{{poses_.before.stages, poses_.before.access}, {}});
+    resources_->set(passes_->shapes, input.shapes);
+    resources_->set(passes_->instances, input.instances);
+    resources_->set(passes_->taken, taken_.part(0, bytes));
+    updates_.begin();
+    updates_.add(*resources_);
+    updates_.end();
+    push_.instances = input.instance_count;
 }
 
 std::optional<std::uint32_t> PoseSource::unusable() const {

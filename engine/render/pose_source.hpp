@@ -3,9 +3,10 @@
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/graph/bound_resources.hpp>
+#include <engine/graph/compute_layout.hpp>
+#include <engine/render/search_memory.hpp>
 #include <nearfield/device_poses.hpp>
-#include <passes/compute_layout.hpp>
-#include <passes/compute_sets.hpp>
 #include <passes/pair_poses.hpp>
 
 #include <array>
@@ -18,7 +19,7 @@ namespace nearfield::render {
 /// commands write them, and what it has taken.
 class PoseSource {
 public:
-    PoseSource(const gpu::Device& device, const passes::ComputeLayout& layout);
+    PoseSource(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// Where the searches that follow take poses from: so many elements. `farthest`: coordinates
     /// beyond it are too coarse for the tolerance.
@@ -29,17 +30,14 @@ public:
     /// Differs if commands recorded before take other poses. 0: none.
     [[nodiscard]] std::uint32_t revision() const { return is_set() ? revision_ : 0; }
 
-    /// A buffer of the search.
-    struct Part {
-        VkBuffer buffer = VK_NULL_HANDLE;
-        std::uint64_t bytes = 0;
-    };
     /// Says for which search the passes are recorded. The device must not be working at what was
     /// recorded before.
-    void bind(const Part& shapes, VkBufferView texels, const Part& instances,
-              std::uint32_t instance_count);
+    void bind(const SearchInput& input);
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
-        passes_->record(commands, timestamps, item_);
+        passes_->graph.execute(commands, timestamps, *resources_, push_);
+    }
+    [[nodiscard]] std::size_t count_passes() const {
+        return is_set() ? passes_->graph.passes().size() : 0;
     }
     /// Call once the device is done.
     void finish() const { taken_.invalidate(); }
@@ -50,13 +48,15 @@ public:
     [[nodiscard]] std::array<double, 4> pose(std::uint32_t instance) const;
 
 private:
-    const passes::ComputeLayout* layout_;
+    const graph::ComputeLayout* layout_;
     gpu::MappedBuffer taken_;
-    passes::DescriptorSets sets_;
+    graph::DescriptorUpdates updates_;
     const passes::PairPoses* passes_ = nullptr;
+    std::optional<graph::BoundResources> resources_;  // of the passes set last
+    const passes::PairPoses* passes_of_resources_ = nullptr;
     DevicePoses poses_;
     std::uint64_t bytes_ = 0;  // of the host's buffer
-    passes::PairPoses::Item item_;
+    plan::PosePush push_{};
     std::uint32_t revision_ = 0;
 };
 

@@ -126,7 +126,7 @@ void BatchResources::bind_copies() {
 }
 
 graph::BoundResources& BatchResources::Bound::use(const std::shared_ptr<CompiledGraph>& graph,
-                                                  const passes::ComputeLayout& layout) {
+                                                  const graph::ComputeLayout& layout) {
     current = nullptr;
     std::erase_if(all, [](const WithGraph& one) { return one.graph.expired(); });
     const auto found = std::find_if(all.begin(), all.end(), [&graph](const WithGraph& one) {

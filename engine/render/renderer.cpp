@@ -51,7 +51,7 @@ GraphKey key_of(const plan::TileBatch& batch) {
 Renderer::Renderer(const gpu::Device& device, const Settings& settings)
     : device_(&device),
       timestamps_(settings.timestamps),
-      layout_(device),
+      layout_(device, passes::max_push_bytes),
       passes_(device, layout_) {
     if (!settings.pipelines_on_demand) {
         passes_.make(settings.techniques);
@@ -67,8 +67,8 @@ std::unique_ptr<BatchResources> Renderer::make_resources() {
 }
 
 std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQuestion& question) {
-    static_cast<void>(passes_.pair_search(question.kind()));
-    return std::make_unique<PairSearchBuffers>(*device_, layout_, question, timestamps_);
+    return std::make_unique<PairSearchBuffers>(
+        *device_, layout_, passes_.pair_search(question.kind()), question, timestamps_);
 }
 
 std::unique_ptr<WorldQueryBuffers> Renderer::make_world_query_buffers(
@@ -155,7 +155,6 @@ void Renderer::prepare_search(const plan::SearchShapes& shapes, const plan::Give
     const double made = pipeline_milliseconds();
     last_had_search_ = !pairs.directions.empty();
     if (last_had_search_) {
-        static_cast<void>(passes_.pair_search(plan::given_pairs));
         PairCounts expected{};
         for (std::size_t i = 0; i < expected.size(); ++i) {
             expected[i] =
@@ -215,11 +214,10 @@ void Renderer::record_search(const GivenSearch& search, BatchResources& slot,
                              VkCommandBuffer commands) {
     const SearchMemory& memory = search.found();
     for (std::size_t i = 0; i < memory.parts(); ++i) {
-        const passes::PairSearch::Item& part = memory.part(i).item();
-        passes_.pair_search(plan::given_pairs).record(commands, slot.timestamps(), part);
+        memory.record(i, commands, slot.timestamps());
         if (slot.has_resident_outputs()) {
-            slot.resident().record_records(part.push, passes_.exports().records, commands,
-                                           slot.timestamps());
+            slot.resident().record_records(memory.part(i).input().push, passes_.exports().records,
+                                           commands, slot.timestamps());
         }
     }
 }
@@ -268,11 +266,11 @@ std::string Renderer::print(GraphFormat format) const {
     }
     if (last_pairs_) {
         if (last_pairs_->takes_poses) {
-            add(pair_poses(), "poses of pairs");
+            add(pair_poses().graph, "poses of pairs");
         }
-        add(pair_search(last_pairs_->kind), "pairs");
+        add(passes_.pair_search(last_pairs_->kind), "pairs");
         if (last_pairs_->is_resident) {
-            add(export_pairs(), "resident pairs");
+            add(export_pairs().graph, "resident pairs");
         }
         return text;
     }
@@ -280,7 +278,7 @@ std::string Renderer::print(GraphFormat format) const {
         add(last_graph_->graph(), "tiles");
     }
     if (last_had_search_) {
-        add(pair_search(plan::given_pairs), "search for points");
+        add(passes_.pair_search(plan::given_pairs), "search for points");
     }
     if (last_had_fields_) {
         add(passes_.exports().field.graph, "resident fields");

@@ -47,11 +47,8 @@ public:
     /// Memory for searches for all pairs, likewise.
     [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(
         const plan::PairQuestion& question);
-    /// The passes of such searches, those before them that take poses of the host, and those after
-    /// them whose results stay on the device.
-    [[nodiscard]] const passes::PairSearch& pair_search(const plan::PairSearchKind& kind) const {
-        return passes_.pair_search(kind);
-    }
+    /// The passes before such searches that take poses of the host, and those after them whose
+    /// results stay on the device.
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return passes_.pair_poses(); }
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return passes_.export_pairs(); }
     /// Says that such a search is recorded, for print().
@@ -121,7 +118,7 @@ private:
     const gpu::Device* device_;
     std::uint32_t number_ = next_owner_number();
     bool timestamps_;
-    passes::ComputeLayout layout_;
+    graph::ComputeLayout layout_;
     PipelineSet passes_;
     std::vector<std::shared_ptr<CompiledGraph>> graphs_;
     std::shared_ptr<const CompiledGraph> last_graph_;

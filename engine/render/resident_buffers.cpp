@@ -43,7 +43,7 @@ std::uint64_t bytes_of_blocks(const plan::SamplesOutput& samples) {
 /// Makes sure that there are so many resources of a graph.
 template <class Graph>
 void reserve(std::vector<graph::BoundResources>& bound, std::size_t count, const Graph& graph,
-             const passes::ComputeLayout& layout) {
+             const graph::ComputeLayout& layout) {
     while (bound.size() < count) {
         bound.push_back(graph.make_resources(layout));
     }
@@ -51,7 +51,7 @@ void reserve(std::vector<graph::BoundResources>& bound, std::size_t count, const
 
 }  // namespace
 
-ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout)
+ResidentBuffers::ResidentBuffers(const gpu::Device& device, const graph::ComputeLayout& layout)
     : device_(&device),
       layout_(&layout),
       tables_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,

@@ -6,13 +6,13 @@
 #include <engine/gpu/image.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bound_resources.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/graph/graph.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/pipeline_set.hpp>
 #include <engine/render/resident_targets.hpp>
 #include <nearfield/on_device.hpp>
-#include <passes/compute_layout.hpp>
 
 #include <cstdint>
 #include <span>
@@ -26,7 +26,7 @@ namespace nearfield::render {
 class ResidentBuffers {
 public:
     /// `views`: of images of the host. They must outlive this.
-    ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout);
+    ResidentBuffers(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// Allocates memory and uploads the tables. `resident` has to stay unchanged until the next
     /// upload. Must not be called while the device uses these buffers or the host uses the resident
@@ -113,7 +113,7 @@ private:
     [[nodiscard]] OutputState state(const BufferTarget& target) const;
 
     const gpu::Device* device_;
-    const passes::ComputeLayout* layout_;
+    const graph::ComputeLayout* layout_;
     const plan::ResidentOutputs* resident_ = nullptr;
     gpu::MappedBuffer tables_;
     gpu::MappedBuffer records_;

@@ -2,15 +2,10 @@
 #include <engine/render/search_memory.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 namespace nearfield::render {
 namespace {
-
-constexpr std::array<const char*, 1> name_of_instance_set{"nearfield pair set of instances"};
-constexpr std::array<const char*, 2> names_of_part_sets{"nearfield pair set of points",
-                                                        "nearfield pair set of rows"};
 
 constexpr std::uint64_t bytes_of_counts = plan::words_of_counts * sizeof(std::uint32_t);
 /// Those of the dispatches of all stages.
@@ -50,27 +45,13 @@ void ScratchLayout::add_stages(std::uint64_t items, std::uint64_t edges, std::ui
     push.depths = words(points);
 }
 
-bool reserve_with_texels(const gpu::Device& device, gpu::MappedBuffer& buffer,
-                         gpu::Owned<VkBufferView>& texels, std::uint64_t bytes, const char* name) {
-    // Where making either of the two failed before, there is no view.
-    if (texels && bytes <= buffer.capacity()) {
-        return false;
-    }
-    texels.reset();
-    buffer.reserve(bytes);
-    texels = gpu::make_texel_view(device, buffer, name);
-    return true;
-}
-
 ShapeBuffer::ShapeBuffer(const gpu::Device& device)
-    : device_(&device),
-      buffer_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+    : buffer_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
               gpu::Direction::upload, "nearfield pair shapes") {}
 
 bool ShapeBuffer::upload(const plan::SearchShapes& shapes) {
     const auto bytes = std::as_bytes(shapes.units());
-    const bool is_new =
-        reserve_with_texels(*device_, buffer_, texels_, bytes.size(), "nearfield pair texels");
+    const bool is_new = buffer_.reserve(bytes.size());
     if (!is_new && shapes.revision() == revision_) {
         return false;
     }
@@ -82,9 +63,10 @@ bool ShapeBuffer::upload(const plan::SearchShapes& shapes) {
     return is_other;
 }
 
-PairPartMemory::PairPartMemory(const gpu::Device& device, const passes::ComputeLayout& layout,
-                               const plan::PairSearchKind& kind, bool is_resident)
-    : layout_(&layout),
+PairPartMemory::PairPartMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
+                               const passes::PairSearch& search, const plan::PairSearchKind& kind,
+                               bool is_resident)
+    : search_(&search),
       kind_(kind),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                "nearfield pair points"),
@@ -94,52 +76,33 @@ PairPartMemory::PairPartMemory(const gpu::Device& device, const passes::ComputeL
       // Some devices read arguments much faster where the host does not.
       counts_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
               "nearfield pair counts"),
-      sets_(device, layout, names_of_part_sets) {
+      resources_(search.part().graph.make_resources(layout)) {
     counts_.reserve(bytes_of_counts);
-    item_.sets[passes::PairSearch::of_points] = sets_[0];
-    item_.sets[passes::PairSearch::of_rows] = sets_[1];
 }
 
 /// Makes room for a part, and places its arrays in the scratch memory of all `instances`.
 void PairPartMemory::lay_out(const PairPart& part, std::uint32_t instances) {
-    const PairBytes bytes = place_pair_arrays(kind_, instances, part.capacities, item_.push);
-    item_.push.first_instance = part.first;
-    item_.push.end_instance = part.end;
-    item_.capacities = part.capacities;
+    const PairBytes bytes = place_pair_arrays(kind_, instances, part.capacities, input_.push);
+    input_.push.first_instance = part.first;
+    input_.push.end_instance = part.end;
+    input_.capacities = part.capacities;
     records_.reserve(bytes.records);
     rows_.reserve(bytes.rows);
 }
 
-/// Between updates of the layout begin and end; after that the passes can be recorded. `shared`:
-/// what all parts have in common.
-void PairPartMemory::bind(const SearchInput& input, const passes::PairSearch::Item& shared,
-                          std::uint64_t scratch_bytes, VkBufferView scratch_texels) {
-    using Layout = passes::ComputeLayout;
-    using passes::PairSearch;
-    item_.sets[PairSearch::of_instances] = shared.sets[PairSearch::of_instances];
-    item_.shapes = shared.shapes;
-    item_.instances = shared.instances;
-    item_.scratch = shared.scratch;
-    item_.arguments = shared.arguments;
-    item_.records = records_.handle();
-    item_.rows = rows_.handle();
-    item_.counts = counts_.handle();
-    for (const auto set : {PairSearch::of_points, PairSearch::of_rows}) {
-        const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
-            layout_->write_buffer(item_.sets[set], binding, buffer, 0, bytes);
-        };
-        write(Layout::tiles, item_.shapes, input.shapes->bytes());
-        write(Layout::geometry, item_.scratch, scratch_bytes);
-        layout_->write_texels(item_.sets[set], Layout::texels, input.shapes->texels());
-        layout_->write_texels(item_.sets[set], Layout::scratch_texels, scratch_texels);
-        if (set == PairSearch::of_rows) {
-            write(Layout::points, item_.rows, row_bytes());
-            write(Layout::output, item_.counts, bytes_of_counts);
-        } else {
-            write(Layout::points, item_.records, bytes_of_pair_records(kind_, item_.capacities));
-            write(Layout::output, item_.arguments, bytes_of_arguments);
-        }
-    }
+/// After that the passes can be recorded. `scratch`, `arguments`: what all parts have in common.
+void PairPartMemory::bind(const SearchInput& input, const gpu::BufferPart& scratch,
+                          const gpu::BufferPart& arguments, graph::DescriptorUpdates& updates) {
+    const passes::PairSearch::Passes& passes = search_->part();
+    resources_.set(passes.shapes, input.shapes);
+    resources_.set(passes.instances, input.instances);
+    resources_.set(passes.scratch, scratch);
+    resources_.set(passes.arguments, arguments);
+    resources_.set(passes.points,
+                   records_.part(0, bytes_of_pair_records(kind_, input_.capacities)));
+    resources_.set(passes.rows, row_part());
+    resources_.set(passes.counts, counts_.part(0, bytes_of_counts));
+    updates.add(resources_);
 }
 
 void PairPartMemory::clear_counts(std::uint32_t pairs) {
@@ -173,8 +136,8 @@ void PairPartMemory::read_results(std::uint32_t first_row, std::vector<std::uint
     if (kind_.are_given()) {
         return;  // each row says so
     }
-    const auto* const numbers =
-        reinterpret_cast<const std::uint32_t*>(rows_data() + 1 + item_.capacities[plan::row_total]);
+    const auto* const numbers = reinterpret_cast<const std::uint32_t*>(
+        rows_data() + 1 + input_.capacities[plan::row_total]);
     const std::uint32_t own = std::min(count(plan::undecided_rows), row_count_);
     const auto first = undecided.insert(undecided.end(), numbers, numbers + own);
     std::sort(first, undecided.end());
@@ -183,26 +146,34 @@ void PairPartMemory::read_results(std::uint32_t first_row, std::vector<std::uint
     }
 }
 
-SearchMemory::SearchMemory(const gpu::Device& device, const passes::ComputeLayout& layout,
-                           const plan::PairSearchKind& kind, bool is_resident)
+SearchMemory::SearchMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
+                           const passes::PairSearch& search, const plan::PairSearchKind& kind,
+                           bool is_resident)
     : device_(&device),
       layout_(&layout),
+      search_(&search),
       kind_(kind),
       is_resident_(is_resident),
       scratch_(device, scratch_usage, gpu::Direction::none, "nearfield pair scratch"),
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::none, "nearfield pair arguments"),
-      sets_(device, layout, name_of_instance_set),
+      updates_(device),
       parts_(kind, is_resident) {
     arguments_.reserve(bytes_of_arguments);
+    if (const auto* const boxes = search.boxes()) {
+        boxes_.emplace(boxes->graph.make_resources(layout));
+    }
+}
+
+gpu::BufferPart SearchMemory::arguments() const {
+    return arguments_.part(0, bytes_of_arguments);
 }
 
 void SearchMemory::lay_out(const SearchInput& input, const PairLimits& limits) {
-    using Layout = passes::ComputeLayout;
     parts_.fit(limits);
     while (memories_.size() < parts_.count()) {
         memories_.push_back(
-            std::make_unique<PairPartMemory>(*device_, *layout_, kind_, is_resident_));
+            std::make_unique<PairPartMemory>(*device_, *layout_, *search_, kind_, is_resident_));
     }
     memories_.resize(parts_.count());
     plan::SearchPush push{};
@@ -213,25 +184,33 @@ void SearchMemory::lay_out(const SearchInput& input, const PairLimits& limits) {
         scratch_bytes_ = std::max(scratch_bytes_, bytes.scratch);
         memories_[i]->lay_out(parts_[i], input.instance_count);
     }
-    reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
-                        "nearfield pair scratch texels");
-    passes::PairSearch::Item shared;
-    shared.sets[passes::PairSearch::of_instances] = sets_[0];
-    shared.shapes = input.shapes->handle();
-    shared.instances = input.instances;
-    shared.scratch = scratch_.handle();
-    shared.arguments = arguments_.handle();
-    layout_->begin_updates();
-    layout_->write_buffer(sets_[0], Layout::tiles, shared.shapes, 0, input.shapes->bytes());
-    layout_->write_buffer(sets_[0], Layout::geometry, shared.scratch, 0, scratch_bytes_);
-    layout_->write_buffer(sets_[0], Layout::points, shared.instances, 0, input.instance_bytes);
-    layout_->write_buffer(sets_[0], Layout::output, shared.arguments, 0, bytes_of_arguments);
-    layout_->write_texels(sets_[0], Layout::texels, input.shapes->texels());
-    layout_->write_texels(sets_[0], Layout::scratch_texels, scratch_texels_.get());
-    for (const auto& part : memories_) {
-        part->bind(input, shared, scratch_bytes_, scratch_texels_.get());
+    scratch_.reserve(scratch_bytes_);
+    updates_.begin();
+    if (boxes_) {
+        boxes_->set(search_->boxes()->shapes, input.shapes);
+        boxes_->set(search_->boxes()->instances, input.instances);
+        boxes_->set(search_->boxes()->scratch, scratch());
+        updates_.add(*boxes_);
     }
-    layout_->end_updates();
+    for (const auto& part : memories_) {
+        part->bind(input, scratch(), arguments(), updates_);
+    }
+    updates_.end();
+}
+
+void SearchMemory::record_boxes(VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
+    search_->boxes()->graph.execute(commands, timestamps, *boxes_, memories_.front()->input());
+}
+
+void SearchMemory::record(std::size_t part, VkCommandBuffer commands,
+                          gpu::Timestamps& timestamps) const {
+    const PairPartMemory& memory = *memories_[part];
+    search_->part().graph.execute(commands, timestamps, memory.resources_, memory.input());
+}
+
+std::size_t SearchMemory::count_passes() const {
+    return (boxes_ ? search_->boxes()->graph.passes().size() : 0) +
+           parts() * search_->part().graph.passes().size();
 }
 
 void SearchMemory::clear_counts(std::uint32_t pairs) {

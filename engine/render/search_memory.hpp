@@ -2,12 +2,11 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/graph/bound_resources.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/render/search_parts.hpp>
-#include <passes/compute_layout.hpp>
-#include <passes/compute_sets.hpp>
 #include <passes/pair_search.hpp>
 
 #include <shaders/pairs.h>
@@ -45,11 +44,6 @@ private:
 inline constexpr VkBufferUsageFlags scratch_usage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 
-/// Makes room in a buffer that has a view of texels. Returns whether both are new: what the buffer
-/// held is lost then.
-bool reserve_with_texels(const gpu::Device& device, gpu::MappedBuffer& buffer,
-                         gpu::Owned<VkBufferView>& texels, std::uint64_t bytes, const char* name);
-
 /// The shapes of searches on the device. The memory only grows.
 class ShapeBuffer {
 public:
@@ -59,29 +53,19 @@ public:
     /// before.
     bool upload(const plan::SearchShapes& shapes);
 
-    [[nodiscard]] VkBuffer handle() const { return buffer_.handle(); }
-    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
-    [[nodiscard]] VkBufferView texels() const { return texels_.get(); }
     /// What passes bind.
-    [[nodiscard]] gpu::BufferPart part() const {
-        gpu::BufferPart part = buffer_.part(0, bytes_);
-        part.texels = texels_.get();
-        return part;
-    }
+    [[nodiscard]] gpu::BufferPart part() const { return buffer_.part(0, bytes_); }
 
 private:
-    const gpu::Device* device_;
     gpu::MappedBuffer buffer_;
-    gpu::Owned<VkBufferView> texels_;
     std::uint64_t bytes_ = 0;
     std::uint64_t revision_ = 0;  // of the shapes
 };
 
 /// What a search reads: shapes, and the instances of a world or the pairs that a batch gives.
 struct SearchInput {
-    const ShapeBuffer* shapes = nullptr;
-    VkBuffer instances = VK_NULL_HANDLE;
-    std::uint64_t instance_bytes = 0;
+    gpu::BufferPart shapes;
+    gpu::BufferPart instances;
     std::uint32_t instance_count = 0;  ///< 0: the pairs are given
 };
 
@@ -89,14 +73,16 @@ struct SearchInput {
 /// only grows.
 class PairPartMemory {
 public:
-    PairPartMemory(const gpu::Device& device, const passes::ComputeLayout& layout,
-                   const plan::PairSearchKind& kind, bool is_resident);
+    PairPartMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
+                   const passes::PairSearch& search, const plan::PairSearchKind& kind,
+                   bool is_resident);
     PairPartMemory(const PairPartMemory&) = delete;
     PairPartMemory& operator=(const PairPartMemory&) = delete;
 
-    [[nodiscard]] const passes::PairSearch::Item& item() const { return item_; }
-    [[nodiscard]] std::uint64_t row_bytes() const {
-        return bytes_of_pair_rows(item_.capacities[plan::row_total]);
+    [[nodiscard]] const passes::PairSearch::Input& input() const { return input_; }
+    /// What the passes after the search bind.
+    [[nodiscard]] gpu::BufferPart row_part() const {
+        return rows_.part(0, bytes_of_pair_rows(input_.capacities[plan::row_total]));
     }
 
     /// Of what was read last: how many rows the parts before have, and this one.
@@ -118,8 +104,8 @@ private:
     friend class SearchMemory;
 
     void lay_out(const PairPart& part, std::uint32_t instances);
-    void bind(const SearchInput& input, const passes::PairSearch::Item& shared,
-              std::uint64_t scratch_bytes, VkBufferView scratch_texels);
+    void bind(const SearchInput& input, const gpu::BufferPart& scratch,
+              const gpu::BufferPart& arguments, graph::DescriptorUpdates& updates);
     void clear_counts(std::uint32_t pairs);
     [[nodiscard]] PairCounts read_counts() const;
     void read_results(std::uint32_t first_row, std::vector<std::uint32_t>& undecided);
@@ -128,25 +114,27 @@ private:
     }
     [[nodiscard]] std::uint32_t count(std::uint32_t word) const;
 
-    const passes::ComputeLayout* layout_;
+    const passes::PairSearch* search_;
     plan::PairSearchKind kind_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer rows_;
     gpu::MappedBuffer counts_;
-    passes::DescriptorSets sets_;
-    passes::PairSearch::Item item_;
+    graph::BoundResources resources_;
+    passes::PairSearch::Input input_;
     std::uint32_t first_row_ = 0;
     std::uint32_t row_count_ = 0;
     std::uint32_t candidates_ = 0;
 };
 
-/// The memory of a search between pairs, found or given, with its descriptor sets. It only grows.
+/// The memory of a search between pairs, found or given. It only grows.
 /// Where not all pairs fit at once, parts of them are searched one after the other, within the same
 /// commands.
 class SearchMemory {
 public:
-    SearchMemory(const gpu::Device& device, const passes::ComputeLayout& layout,
-                 const plan::PairSearchKind& kind, bool is_resident);
+    /// The passes must stay.
+    SearchMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
+                 const passes::PairSearch& search, const plan::PairSearchKind& kind,
+                 bool is_resident);
 
     /// The capacities; once they have changed, lay_out() has to follow.
     [[nodiscard]] PairParts& capacities() { return parts_; }
@@ -155,16 +143,14 @@ public:
     void lay_out(const SearchInput& input, const PairLimits& limits);
     [[nodiscard]] std::size_t parts() const { return memories_.size(); }
     [[nodiscard]] const PairPartMemory& part(std::size_t i) const { return *memories_[i]; }
-    [[nodiscard]] VkDescriptorSet set_of_instances() const { return sets_[0]; }
-    /// What passes bind of the scratch memory.
-    [[nodiscard]] gpu::BufferPart scratch_part() const {
-        gpu::BufferPart part = scratch_.part(0, scratch_bytes_);
-        part.texels = scratch_texels_.get();
-        return part;
-    }
-    [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
-    [[nodiscard]] std::uint64_t scratch_bytes() const { return scratch_bytes_; }
-    [[nodiscard]] VkBufferView scratch_texels() const { return scratch_texels_.get(); }
+    /// What the passes after the search bind.
+    [[nodiscard]] gpu::BufferPart scratch() const { return scratch_.part(0, scratch_bytes_); }
+    [[nodiscard]] gpu::BufferPart arguments() const;
+
+    /// Record passes, once laid out: those before the parts, and those of a part.
+    void record_boxes(VkCommandBuffer commands, gpu::Timestamps& timestamps) const;
+    void record(std::size_t part, VkCommandBuffer commands, gpu::Timestamps& timestamps) const;
+    [[nodiscard]] std::size_t count_passes() const;
 
     /// Empties the counts, so that a device that is lost leaves none of an earlier search. Before
     /// each submission. `pairs`: in place of the number of pairs until the device has counted them.
@@ -191,13 +177,14 @@ public:
 
 private:
     const gpu::Device* device_;
-    const passes::ComputeLayout* layout_;
+    const graph::ComputeLayout* layout_;
+    const passes::PairSearch* search_;
     plan::PairSearchKind kind_;
     bool is_resident_;
     gpu::MappedBuffer scratch_;
     gpu::MappedBuffer arguments_;
-    gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
-    passes::DescriptorSets sets_;
+    std::optional<graph::BoundResources> boxes_;  // where the pairs are found
+    graph::DescriptorUpdates updates_;
     std::uint64_t scratch_bytes_ = 0;
     PairParts parts_;
     std::vector<std::unique_ptr<PairPartMemory>> memories_;  // of the parts

@@ -29,7 +29,7 @@ Sizes sizes_of(plan::WorldQuestion question) {
 
 }  // namespace
 
-WorldQueryBuffers::WorldQueryBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
+WorldQueryBuffers::WorldQueryBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
                                      const passes::WorldQueries& passes,
                                      plan::WorldQuestion question, bool timestamps)
     : device_(&device),
@@ -77,8 +77,7 @@ std::byte* WorldQueryBuffers::reserve(std::uint64_t count, std::uint64_t memory_
     input_.push.count = static_cast<std::uint32_t>(count);
     input_.push.answers = static_cast<std::uint32_t>(first_answer / plan::bytes_of_unit);
     input_.copy = {first_answer, 0, answers};
-    reserve_with_texels(*device_, scratch_, scratch_texels_, scratch,
-                        "nearfield world query scratch texels");
+    scratch_.reserve(scratch);
     questions_.reserve(questions);
     answers_.reserve(answers);
     return questions_.data();
@@ -90,12 +89,10 @@ void WorldQueryBuffers::bind() {
     const auto all_of = [reached](const gpu::MappedBuffer& buffer) {
         return buffer.part(0, std::min(buffer.capacity(), reached));
     };
-    gpu::BufferPart scratch = all_of(scratch_);
-    scratch.texels = scratch_texels_.get();
     resources_.set(passes_->shapes, world_.shape_part());
     resources_.set(passes_->instances, world_.instance_part());
     resources_.set(passes_->questions, all_of(questions_));
-    resources_.set(passes_->scratch, scratch);
+    resources_.set(passes_->scratch, all_of(scratch_));
     resources_.set(passes_->answers, all_of(answers_));
     updates_.begin();
     updates_.add(resources_);

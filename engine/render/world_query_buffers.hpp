@@ -2,15 +2,14 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bound_resources.hpp>
+#include <engine/graph/compute_layout.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/plan/world_question.hpp>
 #include <engine/render/instance_buffers.hpp>
 #include <nearfield/timings.hpp>
-#include <passes/compute_layout.hpp>
 #include <passes/world_queries.hpp>
 
 #include <cstddef>
@@ -23,7 +22,7 @@ namespace nearfield::render {
 class WorldQueryBuffers {
 public:
     /// The passes must stay.
-    WorldQueryBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
+    WorldQueryBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
                       const passes::WorldQueries& passes, plan::WorldQuestion question,
                       bool timestamps);
     /// Waits for the device if it is still working.
@@ -63,7 +62,6 @@ private:
     gpu::MappedBuffer questions_;
     gpu::MappedBuffer scratch_;
     gpu::MappedBuffer answers_;
-    gpu::Owned<VkBufferView> scratch_texels_;
     graph::BoundResources resources_;
     graph::DescriptorUpdates updates_;
     passes::WorldQueries::Input input_;

@@ -207,12 +207,11 @@ void DevicePairs::start(const char* call, Context::Implementation& with, const P
         }
         timings_.plan = total.milliseconds() - pipelines;
         renderer.note_pairs(question_.kind(), poses_.has_value(), question_.on_device);
-        const passes::PairSearch& search = renderer.pair_search(question_.kind());
         if (recording == nullptr) {
-            buffers_->begin(search, instances_.shapes(), context_->memory_limit(), timings_);
+            buffers_->begin(instances_.shapes(), context_->memory_limit(), timings_);
         } else {
-            buffers_->record(recording->commands, search, instances_.shapes(),
-                             context_->memory_limit(), timings_);
+            buffers_->record(recording->commands, instances_.shapes(), context_->memory_limit(),
+                             timings_);
         }
     }
     set_submitted(true);

@@ -1,6 +1,5 @@
 #include <nearfield/device_poses.hpp>
 #include <nearfield/world_pairs.hpp>
-#include <passes/compute_layout.hpp>
 
 #include <gtest/gtest.h>
 #include <shaders/pairs.h>
@@ -22,6 +21,9 @@ constexpr std::uint32_t pairs_found = 20'000;
 constexpr std::uint32_t word_of_pairs = plan::pair_total;
 
 /// How a table is brought up to date.
+/// Where shaders find what they count.
+constexpr std::uint32_t output_binding = 3;
+
 enum class Way {
     at_once,
     by_halves,  ///< submitted, and then collected
@@ -38,8 +40,7 @@ public:
           way_(way),
           table_(PenetrationQuery{.tolerance = 0.05, .on_device = are_resident()},
                  nearfield::test::on_device) {
-        driver().let_shaders_find(
-            {passes::ComputeLayout::output, pairs_found, word_of_pairs, true});
+        driver().let_shaders_find({output_binding, pairs_found, word_of_pairs, true});
         poses_.buffer = driver().make_buffer();
         poses_.size = 1U << 20U;
         poses_.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;

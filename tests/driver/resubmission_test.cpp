@@ -1,4 +1,3 @@
-#include <passes/compute_layout.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/driver/world.hpp>
@@ -13,6 +12,9 @@ using test_support::errors_of;
 using test_support::MockDriver;
 using test_support::name_of;
 
+/// Where shaders find what they count.
+constexpr std::uint32_t output_binding = 3;
+
 /// More samples than the initial capacity, in a grid of this many cells.
 constexpr std::uint32_t samples = 12000;
 constexpr double cells_to_a_unit = 100.0;
@@ -22,7 +24,7 @@ class Crowded {
 public:
     explicit Crowded(Technique technique) : world_(technique) {
         world_.take_all_before(World::Step::submit_first);
-        driver().let_shaders_find({passes::ComputeLayout::output, samples});
+        driver().let_shaders_find({output_binding, samples});
         const Expected<Ticket> ticket = world_.context().submit(world_.overlap(cells_to_a_unit));
         EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
         ticket_ = ticket.has_value() ? *ticket : Ticket{};

@@ -112,8 +112,10 @@ TEST_F(GraphExecute, PassesAreRecordedInOrderFromTheirInputAndTimedByName) {
     timestamps.reset(commands);
     Names recorded;
     Names again;
-    graph.execute(commands, timestamps, &recorded);
-    graph.execute(commands, timestamps, &again);
+    const ComputeLayout layout(device, 16);
+    const BoundResources resources = graph.make_resources(layout);
+    graph.execute(commands, timestamps, resources, &recorded);
+    graph.execute(commands, timestamps, resources, &again);
     submission.submit();
     submission.wait();
     EXPECT_EQ(recorded, again);
@@ -124,25 +126,6 @@ TEST_F(GraphExecute, PassesAreRecordedInOrderFromTheirInputAndTimedByName) {
     for (std::size_t i = 0; i < times.size(); ++i) {
         EXPECT_EQ(times[i].name, recorded[i]);
     }
-}
-
-TEST_F(GraphExecute, AComputePassReadsWhatThereIsAndWritesOneBuffer) {
-    RecordedGraph<int> graph;
-    const Handle sign = color(graph, "sign");
-    const Handle output = graph.import_buffer({.name = "output"});
-    const auto nothing = [](VkCommandBuffer, int) {};
-    EXPECT_EQ(graph.add_compute_pass("look",
-                                     {{next(sign), Access::sampled_in_compute},
-                                      {Handle{}, Access::storage_read_in_compute}},
-                                     output, nothing),
-              next(output));
-    const std::vector<Use>& uses = graph.passes().front().uses;
-    ASSERT_EQ(uses.size(), 2U);
-    EXPECT_EQ(uses[0].handle, next(sign));
-    EXPECT_FALSE(uses[0].write);
-    EXPECT_EQ(uses[1].handle, output);
-    EXPECT_EQ(uses[1].access, Access::storage_write_in_compute);
-    EXPECT_TRUE(uses[1].write);
 }
 
 TEST_F(GraphExecute, ImagesThatShareASlotShareItsBytes) {
