@@ -22,7 +22,7 @@ protected:
         contacts_.begin(0.1, 1e-15);
         for (const double x : {-0.5, 0.5}) {
             ResolvedPoint on_a;
-            on_a.position = {x, 0.25};
+            on_a.point = {x, 0.25};
             on_a.nearest = {x, 0.0};
             on_a.distance = 0.25;
             on_a.edge = 2;
@@ -32,7 +32,7 @@ protected:
         }
         for (const double x : {-0.5, 0.5}) {
             ResolvedPoint on_b;
-            on_b.position = {x, 0.0};
+            on_b.point = {x, 0.0};
             on_b.nearest = {x, 0.25};
             on_b.distance = 0.25;
             on_b.edge = 0;
