@@ -132,8 +132,8 @@ TEST(OraclePoints, DeepestIsAboveSamplesAndReached) {
                             {{random.between(-0.5, 0.5), 0.1}, random.between(0.0, 6.0)});
         const Deepest deepest = deepest_on_boundary(a, b, 1e-3);
         EXPECT_LE(deepest.upper, std::max(deepest.depth, 0.0) + 1e-3);
-        EXPECT_NEAR(b.depth(deepest.position), deepest.depth, 1e-12);
-        EXPECT_LE(a.nearest(deepest.position).distance, 1e-12);
+        EXPECT_NEAR(b.depth(deepest.point), deepest.depth, 1e-12);
+        EXPECT_LE(a.nearest(deepest.point).distance, 1e-12);
         EXPECT_LE(deepest_vertex(a, b).depth, deepest.upper);
         for (const Vector2& p : sample_boundary(a, 0.01, 2000)) {
             ASSERT_LE(b.depth(p), deepest.upper + 1e-12);

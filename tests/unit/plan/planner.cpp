@@ -171,7 +171,7 @@ TEST_F(PlannerTest, ResidentSamplesAreGivenAllTheRoomOfTheBufferButTheSummarys) 
         run({query});
         return std::get<IntersectionResult>(results_.front()).status;
     };
-    const Status refused = status_with_room(1.0, 0);
+    const Status refused = status_with_room(100.0, 0);  // the shapes alone fit
     ASSERT_EQ(refused.code(), StatusCode::too_large);
     const auto at = refused.message().find("has ");
     ASSERT_NE(at, std::string::npos) << refused.message();

@@ -54,6 +54,7 @@ protected:
         PenetrationQuery penetration;
         penetration.tolerance = tolerance;
         query_ = penetration;
+        plan_.queries.front().budget = penetration_budget(penetration);
         plan_.queries.front().points().summarized = summarized;
     }
     /// Those of so many queries like the one that was built.
@@ -272,8 +273,8 @@ TEST_F(PointSearchInput, SaysWhereTheDeepestPointIsEnough) {
         ask_for_penetration(0.01, summarized);
         build(test::regular(5), test::regular(6));
         const double unit = std::ldexp(1.0, std::ilogb(b_.radius()));
-        EXPECT_EQ(search().directions.front().touching,
-                  summarized ? static_cast<float>(0.01 / 1024.0 / unit) : -1.0F);
+        const auto touching = static_cast<float>(0.01 / 1024.0 / unit);
+        EXPECT_FLOAT_EQ(search().directions.front().touching, summarized ? touching : -touching);
     }
 }
 
