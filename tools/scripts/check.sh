@@ -40,12 +40,12 @@ check_sanitized() {
     local runs=(
         'driver/test_driver HostMemory.*' 'driver/test_driver -HostMemory.*'
         'test_geometry *' 'test_outline *' 'test_localize *' 'test_simd *' 'test_narrowphase *'
-        'test_grid *' 'test_cpu *' 'test_plan *' 'test_graph -GraphExecute.*' 'test_mtv *'
+        'test_grid *' 'test_solvers *' 'test_plan *' 'test_graph -GraphExecute.*' 'test_mtv *'
         'worlds/test_worlds *'
     )
     configure sanitize >/dev/null
     build sanitize --target test_driver test_geometry test_outline test_localize test_simd \
-        test_narrowphase test_grid test_cpu test_plan test_graph test_mtv test_worlds test_limits test_reload
+        test_narrowphase test_grid test_solvers test_plan test_graph test_mtv test_worlds test_limits test_reload
     printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
         bash -c '"$0/$1" --gtest_brief=1 --gtest_filter="$2"' "$root/build/sanitize/tests"
     # On a device, so without leak detection: calls that are ended at every stage, and shader reload,
