@@ -62,7 +62,7 @@ struct RecordsOutput {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
-    BufferTarget target;  ///< the host's, if its handle is not null
+    BufferTarget target;          ///< the host's, if its handle is not null
     std::uint32_t first_run = 0;  ///< in ResidentOutputs::record_runs
     std::uint32_t run_count = 0;
 };
@@ -82,7 +82,7 @@ struct SamplesOutput {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
-    BufferTarget target;  ///< the host's, if its handle is not null
+    BufferTarget target;          ///< the host's, if its handle is not null
     std::uint32_t first_run = 0;  ///< in ResidentOutputs::sample_runs
     std::uint32_t run_count = 0;
     std::uint32_t tile_count = 0;

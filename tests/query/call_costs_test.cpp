@@ -200,7 +200,7 @@ protected:
     void measure_submitted() {
         Ticket ticket;
         measure("`submit`", [&] { ticket = *context_->submit(batch_); });
-        measure("`resident`, `memory_use`, `device_name`", [&] {
+        measure("`on_device`, `memory_use`, `device_name`", [&] {
             EXPECT_TRUE(context_->on_device(ticket, field_).has_value());
             EXPECT_GT(context_->memory_use().in_use, 0U);
             EXPECT_FALSE(context_->device_name().empty());

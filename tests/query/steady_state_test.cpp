@@ -106,8 +106,8 @@ TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {
         const bool exported =
             ticket.has_value() &&
             watched().on_device(*ticket, QueryHandle<DistanceFieldQuery>{0}).has_value() &&
-            watched().on_device(*ticket, QueryHandle<PenetrationQuery>{2}).has_value() &&
-            watched().on_device(*ticket, QueryHandle<IntersectionQuery>{4}).has_value();
+            watched().on_device(*ticket, QueryHandle<PenetrationQuery>{1}).has_value() &&
+            watched().on_device(*ticket, QueryHandle<IntersectionQuery>{3}).has_value();
         const bool ok = exported && (former == Ticket{} || watched().collect(former, results).ok());
         former = ticket.has_value() ? *ticket : Ticket{};
         return ok;
@@ -155,7 +155,7 @@ TEST_F(SteadyState, TargetsThatTakeTurnsAllocateAndCreateNothing) {
         }
         const std::size_t turn = static_cast<std::size_t>(number) % targets.images.size();
         auto field = std::get<DistanceFieldQuery>(all.queries()[0]);
-        auto depths = std::get<PenetrationQuery>(all.queries()[2]);
+        auto depths = std::get<PenetrationQuery>(all.queries()[1]);
         field.target = &targets.images[turn];
         depths.target = &targets.buffers[turn];
         batch.clear();
