@@ -336,8 +336,8 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
 
 Batch World::overlap(double cells) const {
     Batch batch;
-    batch.add(IntersectionQuery{here(), there(), 1.0 / cells, IntersectionKind::volume_volume, true,
-                                IntersectionStrategy::stencil, technique_});
+    batch.add(IntersectionQuery{here(), there(), 1.0 / cells, IntersectionKind::volume_volume,
+                                false, IntersectionStrategy::stencil, technique_});
     return batch;
 }
 

@@ -214,7 +214,10 @@ void MockDriver::State::write_counts(const std::set<Number>& used) {
         }
         const auto [first, count] = range->second;
         const std::span words = words_of(set.needs.at(finding->binding));
-        if (first + finding->word < words.size() && words[first] == 0) {
+        const bool is_known = std::any_of(all.begin(), all.end(), [&](const auto& other) {
+            return other.data() == words.data() + first;
+        });
+        if (!is_known && first + finding->word < words.size() && words[first] == 0) {
             all.push_back(words.subspan(first, std::min(count, words.size() - first)));
         }
     }
