@@ -19,8 +19,8 @@
 #include <vector>
 
 /// \file
-/// The entry point of the library: a context owns shapes, device objects and memory, takes batches
-/// of queries and returns their results.
+/// The entry point of the library: a context owns shapes, device objects and memory, and answers
+/// batches of queries.
 
 namespace nearfield {
 
@@ -42,17 +42,18 @@ struct DeviceTechniques {
     bool compute = true;  ///< Technique::compute
 };
 
-/// From how much work of a batch on Technique::automatic is Technique::compute, where the device is
-/// hardware; one that runs on the CPU, such as lavapipe, never answers what the CPU can. 0: always;
-/// UINT64_MAX: never. The defaults are figures of an H100 and an H200 (docs/measurements/gpu.md),
-/// which `nearfield bench --gpu` measures for another device.
+/// The amount of work in a batch from which Technique::automatic selects Technique::compute on a
+/// hardware device. A device that runs on the CPU, such as lavapipe, never answers what the CPU
+/// can. 0: always; UINT64_MAX: never. The defaults come from an H100 and an H200
+/// (docs/measurements/gpu.md); `nearfield bench --gpu` measures another device.
 struct DeviceThresholds {
-    /// Penetrations, contacts and intersections, together. An H100 answered 1,934 penetrations as
-    /// quickly as one thread of its CPU, by an older build; an H200 takes less than half of the
-    /// CPU's time for 4,738.
+    /// The number of penetrations, contacts and intersections together. An H100 answered 1,934
+    /// penetrations as fast as one thread of its CPU, by an older build. An H200 needs less than
+    /// half of the CPU's time for 4,738.
     std::uint64_t pairs = 2000;
-    /// Cells of distance fields, together; of one without a rectangle at most those of the squares
-    /// around both shapes' circles. For 256 x 256 an H100 takes a third of the CPU's time.
+    /// The number of cells of all distance fields together. Without a rectangle a field counts an
+    /// upper bound, from the squares around both shapes' circles. For 256 x 256 cells an H100 needs
+    /// a third of the CPU's time.
     std::uint64_t cells = 65536;
 };
 
@@ -73,7 +74,7 @@ struct Settings {
     std::uint32_t hierarchy_height = 12;
     /// Bounding volumes of these hierarchies; docs/performance.md compares the settings.
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
-    /// From how much work on Technique::automatic is compute on a hardware device.
+    /// The amount of work from which Technique::automatic selects compute on a hardware device.
     DeviceThresholds device_thresholds = {};
     /// Host threads for the queries that the CPU answers. Its function and `user` must stay valid
     /// for the lifetime of the context. Default: everything runs on the calling thread.
@@ -82,19 +83,19 @@ struct Settings {
     /// left out, and a query that names one fails with StatusCode::unsupported_technique in its own
     /// result. Ignored by a context without a device.
     DeviceTechniques techniques = {};
-    /// True: timestamps around each pass tell how long it takes (Timings::passes). They cost time
-    /// themselves, since some drivers wait at each: small frames of lavapipe take twice as long.
+    /// True: timestamps measure each pass (Timings::passes). They cost time themselves, because
+    /// some drivers wait at each: small frames of lavapipe become twice as long.
     bool timestamps = false;
     /// False: the context makes all pipelines when it is created, and no later call makes any.
-    /// True: the first call that needs a pipeline makes it, and takes longer: run(), submit(),
+    /// True: the first call that needs a pipeline makes it and is slower for that: run(), submit(),
     /// record(), collect(), layout_on_device(), World::update(), World::submit() or
-    /// World::record(). For a program that asks few questions and should start quickly.
+    /// World::record(). For a program that has few queries and should start quickly.
     bool pipelines_on_demand = false;
 };
 
-/// What Context::add_shape() returns: the handle of the shape, or why there is none. It can stand
-/// wherever a handle does. Where the shape was refused, whatever is asked about it fails for the
-/// same reason (of more than the last 64 refusals in a context, without the words).
+/// The result of Context::add_shape(): the handle of the shape, or the reason why there is none. It
+/// converts to a ShapeHandle. If the shape was refused, every query about it fails for the same
+/// reason. The context keeps the messages of its last 64 refusals.
 class AddedShape : public Expected<ShapeHandle> {
 public:
     /// A shape that was added.
@@ -102,7 +103,7 @@ public:
     /// A shape that was refused, and the handle that stands for it.
     AddedShape(Status why, ShapeHandle handle) : Expected(std::move(why)), handle_(handle) {}
 
-    /// The handle; of a shape that was refused, one that every query refuses.
+    /// The handle. Every query refuses the handle of a refused shape.
     operator ShapeHandle() const noexcept { return handle_; }
 
 private:
@@ -119,7 +120,7 @@ struct Ticket {
     friend bool operator==(const Ticket&, const Ticket&) = default;
 };
 
-/// Device memory of one context, in bytes: allocated, or asked of HostDevice::memory.
+/// Device memory of one context, in bytes: allocated by the library or by HostDevice::memory.
 struct MemoryUse {
     std::uint64_t in_use = 0;  ///< now
     std::uint64_t peak = 0;    ///< maximum since the context was created
@@ -157,13 +158,13 @@ public:
 
     /// Creates a context without a device: opens no Vulkan loader and needs no driver. It answers
     /// every query that Technique::cpu answers, and Technique::automatic means Technique::cpu. A
-    /// query that needs a device (raster, compute, resident, blended gradients) fails in its own
-    /// result (unsupported_technique). record(), submit() with semaphores, and reload_shaders()
-    /// fail with no_device. Settings that concern the device are ignored.
+    /// query that needs a device (raster, compute, results on the device, blended gradients) fails
+    /// in its own result (unsupported_technique). record(), submit() with semaphores, and
+    /// reload_shaders() fail with no_device. Settings that concern the device are ignored.
     [[nodiscard]] static Expected<Context> create_cpu(const Settings& settings = {});
 
-    /// As create_cpu() with default settings. The program ends if there is no memory for it: where
-    /// that has to be handled, call create_cpu().
+    /// Creates a context without a device, with default settings. The program ends if memory runs
+    /// out; create_cpu() returns the error instead.
     Context() noexcept;
 
     ~Context();
@@ -175,8 +176,8 @@ public:
     Context& operator=(const Context&) = delete;
 
     /// Adds a shape. The rings are copied. There is no precomputation: a shape may be added in the
-    /// frame that first uses it. Whether it was refused may be asked now, or is said by the first
-    /// query about it.
+    /// frame that first uses it. The result tells whether the shape was refused, and so does the
+    /// first query about it.
     ///
     /// `deviation`, in the units of the coordinates, >= 0: the maximum distance of the rings from
     /// the shape that they approximate, as bounded by tessellate() (curve.hpp); 0 if the rings are
@@ -189,12 +190,12 @@ public:
     /// magnitude, the rings together are smaller than `smallest_extent` or have more than
     /// `max_vertices` vertices, or the deviation is out of range.
     [[nodiscard]] AddedShape add_shape(std::span<const Ring> rings, double deviation = 0.0);
-    /// Adds a shape from the caller's own numbers.
+    /// Adds a shape from the caller's own numbers, which are copied. Fails as for a Ring.
     [[nodiscard]] AddedShape add_shape(std::span<const RingView> rings, double deviation = 0.0);
     /// Adds the region that the rings enclose by a rule, as resolve_fill() (fill.hpp) finds it on
     /// its finest grid: features are those of its rings, and its deviation is added to `deviation`.
-    /// Of FillRule::union_of_parts every ring is a part. Fails as resolve_fill() does too, and with
-    /// invalid_shape if the region is empty.
+    /// With FillRule::union_of_parts every ring is a part. Fails as resolve_fill() does too, and
+    /// with invalid_shape if the region is empty.
     [[nodiscard]] AddedShape add_shape(std::span<const Ring> rings, FillRule rule,
                                        double deviation = 0.0);
 
@@ -203,10 +204,10 @@ public:
     /// submitted with. Fails with unknown_shape and as add_shape() does; the shape then keeps its
     /// rings.
     Status update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation = 0.0);
-    /// The same from the caller's own numbers.
+    /// Replaces all rings by the caller's own numbers, which are copied. Fails as for a Ring.
     Status update_shape(ShapeHandle shape, std::span<const RingView> rings, double deviation = 0.0);
-    /// The same from the region that the rings enclose by a rule, which costs what resolve_fill()
-    /// does.
+    /// Replaces all rings by those of the region that `rings` enclose by a rule. Costs as much as
+    /// resolve_fill(), and also fails as resolve_fill() does.
     Status update_shape(ShapeHandle shape, std::span<const Ring> rings, FillRule rule,
                         double deviation = 0.0);
 
@@ -215,11 +216,11 @@ public:
     Status remove_shape(ShapeHandle shape);
 
     /// Broad phase: the pairs of instances whose bounding boxes are at most `reach` apart along
-    /// both axes (world units, >= 0; 0: the closed boxes overlap), up to the rounding of their
-    /// vertices, as shapes touch up to that; in ascending order. The time grows with the number of
-    /// instances and of pairs found. The pairs are borrowed from the context, which keeps their
-    /// memory, until the next call. Fails with invalid_query (the reach or a pose), unknown_shape
-    /// or out_of_memory.
+    /// both axes (world units, >= 0; 0: the closed boxes overlap), in ascending order. The boxes
+    /// include the rounding of their vertices, because shapes that are that close touch. The time
+    /// grows with the number of instances and of pairs found. The pairs are borrowed from the
+    /// context, which keeps their memory, until the next call. Fails with invalid_query (the reach
+    /// or a pose), unknown_shape or out_of_memory.
     [[nodiscard]] Expected<std::span<const InstancePair>> find_overlapping_boxes(
         std::span<const Instance> instances, double reach);
 
@@ -287,9 +288,9 @@ public:
     /// frame that is Settings::batches_in_flight later, which implies it. Until then its ticket is
     /// not ready.
     ///
-    /// A query that takes a second submission fails in its own result (not_recordable): contacts
+    /// A query that needs a second submission fails in its own result (not_recordable): contacts
     /// with gradient normals by the techniques raster and compute. Technique::automatic answers
-    /// them on the CPU. There is always space for all samples of intersections.
+    /// them on the CPU. The memory suffices for all samples of intersections.
     ///
     /// Fails with invalid_submission if `commands` is null or the frame is already complete, and as
     /// submit() does; nothing has been recorded then, and there is no ticket. `limits` as for
@@ -319,9 +320,9 @@ public:
     /// Three kinds of submitted work go to the device a second time here and wait, unless
     /// Technique::cpu answers them: intersections with more samples than the buffer had space for
     /// (more than an eighth of the cells and more than ever before in this context; the next batch
-    /// has the space), searches of Technique::compute that found more points than batches before
-    /// let expect (the same), and contacts with gradient normals (ContactNormals::gradient), whose
-    /// field can only be requested once the contacts are known.
+    /// has the space), searches of Technique::compute that found more points than earlier batches
+    /// (the next batch has the space, too), and contacts with gradient normals
+    /// (ContactNormals::gradient), whose field can only be requested once the contacts are known.
     ///
     /// `limits` hold for this call alone. The wait for the device is not cut; if they end the call,
     /// the queries that are not done say so, and the ticket is used up.
@@ -339,32 +340,33 @@ public:
     /// is an error, as for Technique::cpu; with device_lost once the device is lost.
     [[nodiscard]] Expected<FieldOnDevice> on_device(Ticket ticket,
                                                     QueryHandle<DistanceFieldQuery> query);
-    /// The same for the points of a penetration query.
+    /// The points of a penetration query; otherwise as for a field.
     [[nodiscard]] Expected<PointsOnDevice> on_device(Ticket ticket,
                                                      QueryHandle<PenetrationQuery> query);
-    /// The same for contacts.
+    /// The points of a contact query; otherwise as for a field.
     [[nodiscard]] Expected<PointsOnDevice> on_device(Ticket ticket,
                                                      QueryHandle<ContactQuery> query);
-    /// The same for the samples of an intersection.
+    /// The samples of an intersection query; otherwise as for a field.
     [[nodiscard]] Expected<SamplesOnDevice> on_device(Ticket ticket,
                                                       QueryHandle<IntersectionQuery> query);
 
     /// What on_device() will return for a query of a batch like this one: one entry for each of
-    /// Settings::batches_in_flight, at the position OutputSlot::index. Makes room in all of them,
-    /// so that a host can write its descriptor sets before the first frame; they stay valid as long
-    /// as OutputSlot::revision stays the same. Plans the batch once for each entry, and records
-    /// nothing. Sizes are those at the poses of the batch; PointsOnDevice::max_size holds for all.
+    /// Settings::batches_in_flight, at the position OutputSlot::index. Reserves memory in all of
+    /// them, so that a host can write its descriptor sets before the first frame. The handles stay
+    /// valid as long as OutputSlot::revision stays the same. Plans the batch once for each entry,
+    /// and records nothing. Sizes are those at the poses of the batch; PointsOnDevice::max_size
+    /// holds for all.
     ///
     /// Fails with not_ready if a batch is in flight, and as submit() and on_device() do.
     [[nodiscard]] Expected<std::vector<FieldOnDevice>> layout_on_device(
         const Batch& batch, QueryHandle<DistanceFieldQuery> query);
-    /// The same for the points of a penetration query.
+    /// The points of a penetration query; otherwise as for a field.
     [[nodiscard]] Expected<std::vector<PointsOnDevice>> layout_on_device(
         const Batch& batch, QueryHandle<PenetrationQuery> query);
-    /// The same for contacts.
+    /// The points of a contact query; otherwise as for a field.
     [[nodiscard]] Expected<std::vector<PointsOnDevice>> layout_on_device(
         const Batch& batch, QueryHandle<ContactQuery> query);
-    /// The same for the samples of an intersection.
+    /// The samples of an intersection query; otherwise as for a field.
     [[nodiscard]] Expected<std::vector<SamplesOnDevice>> layout_on_device(
         const Batch& batch, QueryHandle<IntersectionQuery> query);
 
@@ -374,10 +376,9 @@ public:
     /// The device memory of this context, now and at its peak.
     [[nodiscard]] MemoryUse memory_use() const noexcept;
 
-    /// Gives back the device memory that no batch in flight uses: buffers and images of the others,
-    /// which later batches make again at the size that they need. For after a spike, or a change of
-    /// scene. Handles of results on the device of collected batches and from layout_on_device()
-    /// become invalid. Never waits.
+    /// Frees the device memory that no batch in flight uses. Later batches allocate it again at the
+    /// size that they need. Useful after a spike or a change of scene. Handles of results on the
+    /// device of collected batches and from layout_on_device() become invalid. Never waits.
     void trim() noexcept;
 
     class NEARFIELD_HIDDEN Implementation;  ///< the library's own

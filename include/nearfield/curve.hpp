@@ -15,8 +15,7 @@
 
 namespace nearfield {
 
-/// An affine map: it takes a point to origin + x * x_axis + y * y_axis. The default is the
-/// identity.
+/// An affine map: it maps a point to origin + x * x_axis + y * y_axis. The default is the identity.
 struct AffineMap {
     Vector2 x_axis{1.0, 0.0};  ///< image of the unit vector along x
     Vector2 y_axis{0.0, 1.0};  ///< image of the unit vector along y
@@ -53,7 +52,7 @@ struct CurveContour {
 /// An elliptic arc in SVG's end-point parameters.
 struct EllipticArc {
     double radius_x = 0.0;  ///< half-axis along the ellipse's x; sign ignored; 0: a straight line
-    double radius_y = 0.0;  ///< half-axis along the ellipse's y; likewise
+    double radius_y = 0.0;  ///< half-axis along the ellipse's y; sign ignored; 0: a straight line
     double rotation = 0.0;  ///< angle of the ellipse's x axis, radians, counter-clockwise
     bool large = false;     ///< SVG's large-arc flag: one of the two arcs longer than half a turn
     bool counter_clockwise = true;  ///< direction of travel, from the x axis towards the y axis

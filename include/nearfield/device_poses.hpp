@@ -21,11 +21,11 @@ namespace nearfield {
 /// four floats, which are x and y of its position, and cosine and sine of its angle. The angle is
 /// exactly that of the direction (cosine, sine), whose squared length may differ from 1 by 1/64.
 ///
-/// Borrowed: the buffer must exist until the table is brought up to date with other poses, or is
-/// destroyed: commands are kept for the next submission, and a new buffer may have the handle of
-/// one that is gone. What it holds is read once, by the commands of World::submit(), or by each
-/// execution of those of World::record(). Commands that overwrite it after these, on the same
-/// queue, need a barrier that waits for the compute shader stage, and no access.
+/// Borrowed: the buffer must exist until the table is updated with other poses, or is destroyed,
+/// because commands are kept for the next submission and a new buffer may have the handle of a
+/// destroyed one. The poses are read once, by the commands of World::submit(), or by each execution
+/// of those of World::record(). Commands that overwrite it after these, on the same queue, need a
+/// barrier that waits for the compute shader stage, and no access.
 struct DevicePoses {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< not null
     VkDeviceSize offset = 0;           ///< of element 0; see minStorageBufferOffsetAlignment

@@ -12,10 +12,10 @@
 #include <vector>
 
 /// \file
-/// What a program does not need for its answers, but a person to understand and tune it: devices
-/// and what they lack, the render graph, tiles, and the reloading of shaders.
+/// Reports for people who tune or debug a program: devices and what they lack, the render graph,
+/// tiles, and the reloading of shaders.
 ///
-/// Threads: functions that take a context follow the rules of its own functions (Context).
+/// Threads: functions with a context follow the rules of the context's own functions (Context).
 
 namespace nearfield {
 

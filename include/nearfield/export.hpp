@@ -9,10 +9,10 @@
 #endif
 
 /// Marks the functions and classes of the public API that have code in the library. All other
-/// symbols are hidden; plain structures and templates need no mark, but for PairTable, whose code
-/// is in the library, and the queries that it is made for. The static and the shared library
-/// consist of the same objects, so a host defines nothing for either. A host that is itself a
-/// shared library and links the static one can keep these symbols out of its own exports with
+/// symbols are hidden. Plain structures and templates need no mark, except PairTable, whose code is
+/// in the library, and its queries. The static and the shared library consist of the same objects,
+/// so a host defines nothing for either. A host that is itself a shared library and links the
+/// static one can keep these symbols out of its own exports with
 /// `-Wl,--exclude-libs,libnearfield.a`.
 #if defined(__GNUC__)
 #define NEARFIELD_EXPORT [[gnu::visibility("default")]]

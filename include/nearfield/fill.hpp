@@ -10,8 +10,8 @@
 #include <vector>
 
 /// \file
-/// Rings as people have them, made into rings that a shape takes: other fill rules than odd-even,
-/// and rings that enclose nothing.
+/// Conversion of rings with other fill rules than odd-even, and of rings that enclose nothing, into
+/// the rings of a shape.
 ///
 ///     const Expected<ResolvedFill> fill = resolve_fill(rings, FillRule::nonzero);
 ///     const Expected<ShapeHandle> shape = context.add_shape(fill->rings, fill->deviation);
@@ -46,9 +46,10 @@ struct ResolvedFill {
     /// lies to the left of every edge: outer boundaries run counter-clockwise, holes clockwise.
     /// Empty if the region is.
     std::vector<Ring> rings;
-    /// Every point farther than this from the boundary of the asked region is on the right side,
-    /// and no point of the rings is farther than this from that boundary. So queries answer for a
-    /// region between the asked one shrunk by this and grown by it. Pass it to Context::add_shape.
+    /// Every point farther than this from the boundary of the wanted region is on the right side,
+    /// and no point of the rings is farther than this from that boundary. Queries therefore answer
+    /// for a region between the wanted one shrunk by this and grown by it. Pass it to
+    /// Context::add_shape.
     double deviation = 0.0;
 };
 
@@ -71,13 +72,13 @@ struct ResolvedFill {
     std::span<const Ring> rings, FillRule rule, const FillSettings& settings = {});
 
 /// Grows the region that rings enclose by a rule, with round corners, or shrinks it: by `distance`,
-/// in the units of the rings, negative to shrink. For clearance: B grown by a distance meets what
-/// is no farther than that from B.
+/// in the units of the rings, negative to shrink. Useful for clearance: B grown by a distance meets
+/// all that is no farther than that from B.
 ///
 /// `deviation` (> 0) bounds that of the result, which states the actual one; arcs get as few edges
 /// as half of it allows. The law is one of distances to the region as resolve_fill() finds it: with
 /// the deviation D of the result, a point closer to it than `distance` - D is inside, and one
-/// farther than `distance` + D outside; for a negative distance likewise with depths below the
+/// farther than `distance` + D outside. For a negative distance the same holds of depths below the
 /// boundary. Where a gap or a neck is within D of closing, it may be open or closed.
 ///
 /// `settings` are those of resolve_fill(), which works twice. The rings of the result are as
@@ -91,9 +92,9 @@ struct ResolvedFill {
 
 /// What clean() drops.
 struct Cleaning {
-    /// What is no wider than this vanishes, in the units of the rings, >= 0. At least 2^-47 of a
-    /// ring's largest coordinate, for which 0 stands: rounding of coordinates makes such widths
-    /// meaningless, and Context::add_shape refuses rings that are thinner than half of that.
+    /// Parts no wider than this vanish; in the units of the rings, >= 0. The least width is 2^-47
+    /// of a ring's largest coordinate, and 0 means that: rounding of coordinates makes smaller
+    /// widths meaningless, and Context::add_shape refuses rings that are thinner than half of that.
     double width = 0.0;
     /// Drops vertices as well: repeated ones, those on a straight line between their neighbours,
     /// and spikes. Otherwise only whole rings, and indices within the others stay the caller's.
@@ -109,7 +110,7 @@ struct DroppedRing {
     double width = 0.0;
 };
 
-/// What is left of rings.
+/// The rings that remain.
 struct CleanedRings {
     std::vector<Ring> rings;  ///< those that remain, in order
     /// Every point farther than this from all rings has its winding number unchanged, and no point

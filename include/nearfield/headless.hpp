@@ -3,7 +3,7 @@
 #include <nearfield/export.hpp>
 
 /// \file
-/// A device of the context's own, and where any context writes its log. No type of Vulkan's.
+/// A device of the context's own, and the log of any context. No type of Vulkan's.
 
 namespace nearfield {
 

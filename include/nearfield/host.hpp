@@ -64,13 +64,13 @@ struct MemoryAllocation {
 struct MemoryFunctions {
     void* user = nullptr;  ///< passed to each function
     /// Fills in `allocation` (which has its defaults) and returns VK_SUCCESS, or returns an error,
-    /// which fails the call of the library as that of vkAllocateMemory would. Which of the allowed
-    /// types is taken, and what happens if one is exhausted, is up to the function. An allocation
-    /// that contradicts the request is given back and fails with StatusCode::invalid_settings.
+    /// which fails the call of the library as that of vkAllocateMemory would. The function chooses
+    /// among the allowed types, also when one is exhausted. An allocation that contradicts the
+    /// request is freed and fails with StatusCode::invalid_settings.
     VkResult (*allocate)(void* user, const MemoryRequest* request,
                          MemoryAllocation* allocation) = nullptr;
-    /// Takes back what `allocate` gave, with the same values; once for every success. Everything
-    /// bound to it was destroyed, and the device no longer uses it.
+    /// Frees what `allocate` returned, with the same values; called once for every success.
+    /// Everything bound to it was destroyed, and the device no longer uses it.
     void (*free)(void* user, const MemoryAllocation* allocation) = nullptr;
 };
 

@@ -29,8 +29,8 @@ struct JobSystem {
     /// Must call `job(data, 0)`, ..., `job(data, jobs - 1)`, each once, in any order, on any
     /// threads, concurrently or not, and return when all have returned and their writes are visible
     /// to the caller. Jobs do not wait for each other and do not throw. Called by the thread that
-    /// called Context::submit, record, collect or run, or asks a World, during that call; it must
-    /// not throw or call the context. `jobs` is at least 2 and at most `count`.
+    /// called Context::submit, record, collect or run, or a function of a World, during that call;
+    /// it must not throw or call the context. `jobs` is at least 2 and at most `count`.
     void (*run)(void* user, std::uint32_t jobs, void (*job)(void* data, std::uint32_t number),
                 void* data) = nullptr;
 };

@@ -12,14 +12,14 @@
 
 namespace nearfield {
 
-/// How far a call is, at one of its checkpoints.
+/// The progress of a call at one of its checkpoints.
 struct Progress {
     std::uint64_t checkpoint = 0;  ///< number of the checkpoint in this call, from 1
     /// Queries of the batch that are done, or entries of a world's query. Those answered by the
     /// device are done in collect().
     std::uint64_t done = 0;
-    /// Queries, or entries, known so far; it grows where the answers to some ask for more. Shape
-    /// casts and tables of pairs count the pairs that come near each other.
+    /// Queries, or entries, known so far; it grows where the answers to some need more. Shape casts
+    /// and tables of pairs count the pairs that come near each other.
     std::uint64_t count = 0;
 };
 
@@ -33,12 +33,12 @@ struct Progress {
 /// - A query of a batch that is not done has StatusCode::cancelled or budget_exhausted as its own
 ///   status, and no records. The batch itself succeeds.
 /// - A separation vector or time of impact that is being searched ends as if its own limit were
-///   reached (max_work, max_steps): its status is ok, and its bounds are wider than asked for.
-/// - A query of a world fails as a whole, with cancelled or budget_exhausted.
-/// Later calls answer as if nothing had been.
+///   reached (max_work, max_steps): its status is ok, and its bounds are wider than requested.
+/// - A query of a world fails as a whole, with cancelled or budget_exhausted. Later calls answer as
+///   if nothing had happened.
 ///
-/// Not cut are the wait for the device, the upload of a batch and the recording of its commands.
-/// What the device works on is waited for, and not read if the time is over by then.
+/// The wait for the device, the upload of a batch and the recording of its commands are not cut. If
+/// the time is over when the device is done, its results are not read.
 struct Limits {
     /// The call ends once this is true. Borrowed for the call; any thread may set it, and so may
     /// `progress`. Null: the call cannot be cancelled.

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// All of nearfield but what names types of Vulkan's, which is in vulkan.hpp: shapes, queries,
-/// batches and worlds, answered by the CPU or by a device of the context's own.
+/// Everything that needs no type of Vulkan's: shapes, queries, batches and worlds, answered by the
+/// CPU or by a device of the context's own. vulkan.hpp has the rest.
 ///
 /// Begin with Context (context.hpp), Ring (shape.hpp), the queries (query.hpp) and their results
 /// (result.hpp); then Batch and Results; then World and its tables of pairs (world.hpp).

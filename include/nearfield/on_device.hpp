@@ -11,27 +11,27 @@
 /// Outputs on the device: results that stay on the device (Context::on_device()), for the host's
 /// own shaders. The GLSL header nearfield/nearfield.glsl declares the same structures.
 ///
-/// A query may name images or a buffer of the host to write to (FieldTarget,
-/// BufferTarget); what follows is about nearfield's own.
+/// A query may name images or a buffer of the host as the target (FieldTarget, BufferTarget). The
+/// following paragraphs describe nearfield's own.
 ///
 /// Images and buffers belong to the batch of the query. Their contents are valid once the device
 /// has executed the batch. Commands that the host submits to the same queue after Context::submit()
 /// see them without a barrier, in the stages and by the accesses that OutputState states. Other
-/// stages, accesses, layouts or queues take a barrier, semaphore or ownership transfer by the host,
+/// stages, accesses, layouts or queues need a barrier, semaphore or ownership transfer by the host,
 /// which must return the images to the stated state.
 ///
 /// They stay valid until the batch is collected, so collect it after the device has finished the
-/// commands that read them. Afterwards they are reused by another batch, and no handle may be used.
+/// commands that read them. Afterwards another batch reuses them, and no handle may be used.
 
 namespace nearfield {
 
 /// The synchronisation state in which the host's commands find a output on the device.
 struct OutputState {
-    /// Vertex, fragment and compute shader; of buffers also vertex input and indirect commands.
-    /// Only those that the host's queue family has.
+    /// Vertex, fragment and compute shader; for buffers also vertex input and indirect commands.
+    /// Only stages that the host's queue family has.
     VkPipelineStageFlags stages = 0;
-    /// VK_ACCESS_SHADER_READ_BIT; of buffers also the reading of vertex attributes and of indirect
-    /// commands, likewise.
+    /// VK_ACCESS_SHADER_READ_BIT; for buffers also the reading of vertex attributes and of indirect
+    /// commands, if the queue family has these stages.
     VkAccessFlags access = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< of images
     /// The owner; VK_QUEUE_FAMILY_IGNORED if shared with HostDevice::reader_families.
@@ -47,8 +47,8 @@ struct TargetState {
     /// left out, so that the defaults suit one that only computes.
     VkPipelineStageFlags stages = 0;
     VkAccessFlags access = 0;  ///< in these stages; 0 if there are none
-    /// Of images. Before: its layout now; VK_IMAGE_LAYOUT_UNDEFINED discards what it holds, any
-    /// other keeps the texels beyond the cells. After: the layout to leave it in.
+    /// For images. Before: the present layout; VK_IMAGE_LAYOUT_UNDEFINED discards the contents, any
+    /// other keeps the texels beyond the cells. After: the final layout.
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 
     /// True if all members are equal.
@@ -60,26 +60,26 @@ inline constexpr TargetState read_by_shaders{
     VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
     VK_ACCESS_SHADER_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-/// The batch waits for these shaders, and what they have read is discarded.
+/// The batch waits for these shaders, and the contents are discarded.
 inline constexpr TargetState former_readers{read_by_shaders.stages, read_by_shaders.access,
                                             VK_IMAGE_LAYOUT_UNDEFINED};
 
 /// An image of the host to write to, and how it was created: two-dimensional, with one sample per
-/// texel, optimal tiling, on the context's device. Vulkan does not tell the library, which checks
-/// what is stated here.
+/// texel, optimal tiling, on the context's device. The library cannot query this from Vulkan, and
+/// checks what is stated here.
 ///
 /// Borrowed: image and view must exist until the batch is collected. Nothing is kept of them.
 struct ImageTarget {
     VkImage image = VK_NULL_HANDLE;  ///< null: an image of nearfield's own
-    /// What is written: one level and one layer of the image, as VK_IMAGE_VIEW_TYPE_2D, in `format`
-    /// and without a swizzle.
+    /// The view that is written: one level and one layer of the image, as VK_IMAGE_VIEW_TYPE_2D, in
+    /// `format` and without a swizzle.
     VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_UNDEFINED;  ///< as FieldOnDevice states for each image
     VkExtent2D extent{};                  ///< of the level, texels: as large as the field or larger
     VkImageUsageFlags usage = 0;          ///< contains VK_IMAGE_USAGE_STORAGE_BIT
     std::uint32_t level = 0;              ///< of `view`
     std::uint32_t layer = 0;              ///< of `view`
-    TargetState before = former_readers;  ///< default: what it holds is discarded
+    TargetState before = former_readers;  ///< default: the contents are discarded
     TargetState after = read_by_shaders;  ///< needs VK_IMAGE_USAGE_SAMPLED_BIT as it is
 };
 
@@ -113,8 +113,8 @@ struct HeaderOnDevice {
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
 };
 
-/// Which of a context's resident handles these are. A host that writes descriptor sets once keeps
-/// one set for each slot, and writes it again only if the revision is another one.
+/// Identifies a set of a context's handles of results on the device. A host that writes descriptor
+/// sets once keeps one set for each slot, and writes it again only if the revision has changed.
 struct OutputSlot {
     /// The batch in flight that owns them, below Settings::batches_in_flight: two batches in flight
     /// at the same time have different ones.
@@ -122,7 +122,7 @@ struct OutputSlot {
     /// Changes whenever a handle or an offset of any output on the device of the slot does: when
     /// one grows beyond what was reserved, when there are more of them, and by Context::trim().
     /// Images and buffers of the host do not count. Sizes and capacities are those of a batch and
-    /// change without it: a descriptor that is to last takes VK_WHOLE_SIZE.
+    /// change without it, so a permanent descriptor uses VK_WHOLE_SIZE.
     std::uint64_t revision = 0;
 };
 
@@ -157,7 +157,7 @@ struct FieldOnDevice {
     /// known before the field is computed and so assumes the largest possible distance: slightly
     /// more than DistanceFieldResult::error_bound.
     double error_bound = 0.0;
-    /// Once the device has executed the batch; of the images that are nearfield's own.
+    /// The state once the device has executed the batch, for nearfield's own images.
     OutputState state;
     HeaderOnDevice header;  ///< of all cells
     OutputSlot slot;        ///< for hosts that keep their descriptor sets
@@ -169,14 +169,14 @@ struct FieldOnDevice {
 /// offset, or as a vertex or indirect buffer, and copied from.
 ///
 /// Records are in the order of their points: along A's rings, then, for contacts, along B's. The
-/// CPU does not know their number before the batch is collected. Where there are more than there is
-/// space for, the header says so (HeaderData::overflow), the result has
-/// StatusCode::overflow, beside all that it has without, and the next batch has space for as many.
+/// CPU does not know their number before the batch is collected. If there are more than the space
+/// holds, the header says so (HeaderData::overflow), the result has StatusCode::overflow beside all
+/// its other values, and the next batch has space for as many.
 ///
 /// Each record is the single-precision version of the record that the CPU computes for the same
-/// point (PenetratingPoint, ContactPoint), but for the normal of a contact of B's boundary, which
+/// point (PenetratingPoint, ContactPoint), except the normal of a contact of B's boundary, which
 /// points out of A. It names the edge that the nearest point lies on, never a vertex; if another
-/// one is as near up to `error_bound`, either (point_flags::undecided).
+/// edge is as near up to `error_bound`, it names either (point_flags::undecided).
 ///
 /// A record may exist on one side only if the point's distance differs from the contact distance by
 /// at most `error_bound`, if the point is so close to the boundary that it counts as touching
@@ -195,7 +195,8 @@ struct PointsOnDevice {
     /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
     /// is larger, where the record is neither touching nor undecided.
     double error_bound = 0.0;
-    OutputState state;      ///< once the device has executed the batch; or as the host asked
+    OutputState
+        state;  ///< once the device has executed the batch; or as the target's `after` states
     HeaderOnDevice header;  ///< of the records
     OutputSlot slot;        ///< for hosts that keep their descriptor sets
 };
@@ -226,14 +227,15 @@ struct SamplesOnDevice {
     /// is the nearest in its chain of A's edges, up to twice this bound; the CPU may name another
     /// one as near.
     double error_bound = 0.0;
-    OutputState state;      ///< once the device has executed the batch; or as the host asked
+    OutputState
+        state;  ///< once the device has executed the batch; or as the target's `after` states
     HeaderOnDevice header;  ///< of the samples
     OutputSlot slot;        ///< for hosts that keep their descriptor sets
 };
 
-/// NearfieldHeader of the GLSL header (std430): the size of a output on the device, where it lies,
-/// and what draws or dispatches as much as there is. `count` is the number of cells of a field, or
-/// of the records or samples stored.
+/// NearfieldHeader of the GLSL header (std430): the size and position of an output on the device,
+/// and the arguments that draw or dispatch as much as there is. `count` is the number of cells of a
+/// field, or of stored points or samples.
 struct HeaderData {
     VkDrawIndirectCommand points{};      ///< one vertex for each, in one instance
     VkDrawIndirectCommand quads{};       ///< six vertices and one instance for each; a field: one
@@ -256,7 +258,7 @@ namespace feature_bits {
 inline constexpr std::uint32_t index_mask = 0x0fffffff;  ///< index of the edge or vertex
 inline constexpr std::uint32_t vertex = 1U << 28U;       ///< set: a vertex; clear: an edge
 inline constexpr std::uint32_t unique = 1U << 30U;       ///< as PenetratingPoint::unique
-/// The place lies inside the shape; that of a record, deeper than d/1024.
+/// The point lies inside the shape; the point of a record, deeper than d/1024.
 inline constexpr std::uint32_t inside = 1U << 31U;
 }  // namespace feature_bits
 
@@ -278,8 +280,9 @@ inline constexpr std::uint32_t no_point = UINT32_MAX;
 
 /// NearfieldSummary of the GLSL header (std430).
 struct SummaryData {
-    std::uint32_t count = 0;  ///< of the records that were found; at least, if the capacity is 0
-    /// As PointsOnDevice::capacity; 0 if the search itself had no room, and nothing is stored.
+    std::uint32_t count = 0;  ///< number of records found; a lower bound if the capacity is 0
+    /// As PointsOnDevice::capacity; 0 if the memory of the search was too small, so that nothing is
+    /// stored.
     std::uint32_t capacity = 0;
     std::uint32_t deepest = no_point;  ///< index of the first record of the greatest depth
     float depth = 0.0F;  ///< its depth: distance inside the other shape, negative outside
@@ -304,7 +307,7 @@ static_assert(sizeof(RecordData) == 40 && offsetof(RecordData, nearest) == 8 &&
               offsetof(RecordData, normal) == 16 && offsetof(RecordData, distance) == 24 &&
               offsetof(RecordData, feature) == 28 && offsetof(RecordData, edge) == 32);
 
-/// IntersectionSampleData::edge if A takes part by its volume.
+/// IntersectionSampleData::edge if the query uses A's volume.
 inline constexpr std::uint32_t no_edge = UINT32_MAX;
 
 /// NearfieldIntersectionSummary of the GLSL header (std430). The box is relative to
@@ -326,7 +329,7 @@ static_assert(sizeof(IntersectionSummaryData) == 32 &&
 /// SamplesOnDevice::origin.
 struct IntersectionSampleData {
     float point[2]{};              ///< the centre of a cell
-    std::uint32_t edge = no_edge;  ///< an edge of A nearby, if A takes part by its boundary
+    std::uint32_t edge = no_edge;  ///< an edge of A nearby, if the query uses A's boundary
     std::uint32_t region = 0;      ///< index of the cell's region in ResultSummary::regions
 };
 static_assert(sizeof(IntersectionSampleData) == 16 && offsetof(IntersectionSampleData, edge) == 8 &&

@@ -20,16 +20,16 @@ struct ArrayOnDevice {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< borrowed
     VkDeviceSize size = 0;             ///< of the array, in bytes
     std::uint32_t capacity = 0;        ///< maximum number of elements
-    /// How many there are. `overflow` is 1 if there was not enough room for the pairs, whose rows
-    /// and records are then not all there; PairTable::collect() makes room and searches
-    /// again, or, where the commands were recorded for the host, the next World::record() does.
+    /// The number of elements. `overflow` is 1 if the memory was too small for the pairs, so that
+    /// rows and records are missing. PairTable::collect() then grows the memory and searches again;
+    /// for recorded commands the next World::record() grows it.
     HeaderOnDevice header;
 };
 
-/// The rows of a PairTable whose query is resident (PenetrationQuery::on_device,
-/// ContactQuery::on_device), as the device has found them, in ascending order as in the table.
-/// Nothing of them is made exact: pairs that single precision cannot decide are there with a flag
-/// (pair_flags), and it is for the host's shaders to count them or not.
+/// The rows of a PairTable whose query leaves results on the device (PenetrationQuery::on_device,
+/// ContactQuery::on_device), as the device has found them, in ascending order as in the table. They
+/// are not made exact: pairs that single precision cannot decide have a flag (pair_flags), and the
+/// host's shaders count them or not.
 ///
 /// Commands that the host submits to the same queue after World::submit() see them, as those of a
 /// batch (on_device.hpp), and so do those that follow what World::record() has recorded. All
@@ -37,12 +37,12 @@ struct ArrayOnDevice {
 /// World::submit(), by when the device must be done with these commands; frames in flight have two
 /// tables, in turns.
 ///
-/// Error of all positions and distances of a pair: at most 2^-17 of the sum of both shapes' radii
-/// around their centres, the distance of these centres, and that of the pair from the origin, where
-/// poses are the host's (DevicePoses) also of the distances of the centres from the shapes' own
-/// (0, 0); and 2^-44 of the largest world coordinate, the origin's included. The error of a normal
-/// is at most twice this divided by the distance, where the record is neither touching nor
-/// undecided.
+/// Error of all positions and distances of a pair: at most 2^-17 of a sum of lengths plus 2^-44 of
+/// the largest world coordinate, the origin's included. The lengths are both shapes' radii around
+/// their centres, the distance of these centres, and that of the pair from the origin; if the poses
+/// are the host's (DevicePoses), also the distances of the centres from the shapes' own (0, 0). The
+/// error of a normal is at most twice this divided by the distance, where the record is neither
+/// touching nor undecided.
 ///
 /// Where pairs of contacts are searched in parts (PairTable), a point may have two equal
 /// records, of which a pair names one.
@@ -56,27 +56,27 @@ struct PairsOnDevice {
 
 /// The bits of PairData::flags.
 namespace pair_flags {
-/// Whether the pair is hit is not certain.
+/// It is not certain that the pair is hit.
 inline constexpr std::uint32_t undecided = 4;
-/// It is hit for certain; count and deepest record are not.
+/// The pair is certainly hit; its count and deepest record are not certain.
 inline constexpr std::uint32_t uncertain = 8;
-/// Contacts: the shapes intersect for certain.
+/// Contacts: the shapes certainly intersect.
 inline constexpr std::uint32_t intersects = 16;
 }  // namespace pair_flags
 
 /// NearfieldPair of the GLSL header (std430): a pair that is hit, or may be.
 struct PairData {
     std::uint32_t a = 0;      ///< index of the instance's handle (InstanceHandle::index)
-    std::uint32_t b = 0;      ///< likewise
-    std::uint32_t count = 0;  ///< of the records, those that count for certain
+    std::uint32_t b = 0;      ///< index of the other instance's handle
+    std::uint32_t count = 0;  ///< the number of records that certainly count
     std::uint32_t flags = 0;  ///< pair_flags
     /// Consecutive records, of points of A's boundary. Penetrations: those without
     /// feature_bits::inside do not count. Contacts: those farther than the contact distance do
     /// not.
     std::uint32_t first_point = 0;
-    std::uint32_t point_count = 0;  ///< how many
+    std::uint32_t point_count = 0;  ///< the number of these records
     std::uint32_t first_of_b = 0;   ///< contacts: those of points of B's boundary
-    std::uint32_t count_of_b = 0;   ///< likewise
+    std::uint32_t count_of_b = 0;   ///< the number of these records
     /// Penetrations: the record of the greatest depth; no_point where it is not certain that there
     /// is one.
     std::uint32_t deepest = no_point;

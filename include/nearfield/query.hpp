@@ -48,26 +48,25 @@ inline constexpr double max_deviation = 0.25;
 /// may differ within the error bound, near the boundaries. Fields have the same grid, and values
 /// within both error bounds; signs differ only where these allow it, near the boundary.
 enum class Technique {
-    /// cpu for what it answers, except on hardware devices: there, from so many pairs of a batch or
-    /// cells of its fields on (Settings::device_thresholds), all its queries of that kind of work
-    /// go
-    /// to compute. Left to cpu all the same are contacts with gradient normals and what compute
-    /// might refuse (too_large). For what cpu does not answer, compute where it does, or raster.
+    /// Selects cpu for what it answers, except on hardware devices: there, from a number of pairs
+    /// or cells of fields in a batch (Settings::device_thresholds), all queries of that group go to
+    /// compute. Contacts with gradient normals, and queries that compute might refuse (too_large),
+    /// stay with cpu. For what cpu does not answer it selects compute where that answers, otherwise
+    /// raster.
     automatic,
     /// The paper's: fields are drawn on the device, and the results refined on the CPU.
     raster,
-    /// Runs on the device without rasterisation: bit masks for volumes and boundaries, which for
-    /// intersections are those of the shapes' own edges, and lists of near edges for distances.
-    /// Answers every query that raster answers, except GradientMethod::blended, which is drawn
-    /// (invalid_query) and, with too_large in the result, intersections of millions of edges and
-    /// fields of which over 12,000 edges are about equally near to a cell. IntersectionStrategy
-    /// and SignEncoding, which are ways of drawing, are ignored and need nothing of the device.
-    /// The CPU answers closest points and separations, which are as technique cpu has them, and
-    /// points of boundaries too large for the device.
+    /// Runs on the device without rasterisation: bit masks for volumes and boundaries, from the
+    /// shapes' own edges for intersections, and lists of near edges for distances. It answers every
+    /// query that raster answers, except GradientMethod::blended, which is drawn (invalid_query).
+    /// Intersections of millions of edges, and fields with more than 12,000 edges about equally
+    /// near to a cell, fail with too_large. IntersectionStrategy and SignEncoding, which are ways
+    /// of drawing, are ignored. The CPU answers closest points and separations, as technique cpu
+    /// does, and points of boundaries too large for the device.
     compute,
     /// Runs entirely on the CPU, and its answers have the same bits on every machine. Points are
     /// resolved to single edges in double precision, intersections by bit masks of a raster's
-    /// samples, distance fields by the near edges of each block of cells. Answers every query
+    /// samples, distance fields by the near edges of each block of cells. It answers every query
     /// except GradientMethod::blended and results on the device (invalid_query); it alone answers
     /// intersection tests, times of impact, separation vectors and containment.
     ///
@@ -91,20 +90,22 @@ enum class PenetrationPoints {
 /// Point depth: for points of A's boundary inside B, the distance and direction to the nearest
 /// point of B's boundary (section 2.2.4 of the paper, "Penetration Depth and Direction").
 ///
-///     const nearfield::PenetrationQuery query{.a = {arrow, pose}, .b = {channel}, .tolerance =
-///     0.1}; if (const auto deep = context.answer(query)) {
-///         for (const auto& point : deep->points) { push(point.position, point.direction,
-///         point.depth); }
+///     const auto deep = context.answer(nearfield::PenetrationQuery{
+///         .a = {arrow, pose}, .b = {channel}, .tolerance = 0.1});
+///     if (deep) {
+///         for (const auto& point : deep->points) {
+///             push(point.position, point.direction, point.depth);
+///         }
 ///     }
 struct NEARFIELD_EXPORT PenetrationQuery {
-    using Result = PenetrationResult;  ///< its answer (result.hpp)
+    using Result = PenetrationResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};         ///< the shape whose points are examined
     Instance b = {};         ///< the shape that they penetrate
     double tolerance = 0.0;  ///< d, world units, > 0: half the diagonal of a grid cell
     PenetrationPoints points = PenetrationPoints::boundary;  ///< which points of A
-    bool summary_only =
-        false;  ///< true: the answer is the summary (count, deepest), without points
+    /// True: the answer is the summary (count, deepest), without points.
+    bool summary_only = false;
     Technique technique = Technique::automatic;  ///< the technique that answers
     /// True: summary and points also stay on the device, for shaders to read (on_device.hpp).
     /// Technique::automatic then selects Technique::compute; the others fail (invalid_query), as do
@@ -160,10 +161,10 @@ inline constexpr std::size_t intersection_strategies = 4;
 ///         .a = {arrow, pose}, .b = {channel}, .tolerance = 0.01, .summary_only = true});
 ///     const double area = common ? common->area : 0.0;
 struct NEARFIELD_EXPORT IntersectionQuery {
-    using Result = IntersectionResult;  ///< its answer (result.hpp)
+    using Result = IntersectionResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};                                          ///< its boundary or volume, by `kind`
-    Instance b = {};                                          ///< likewise
+    Instance b = {};                                          ///< its boundary or volume, by `kind`
     double tolerance = 0.0;                                   ///< d, world units, > 0
     IntersectionKind kind = IntersectionKind::volume_volume;  ///< the part of each shape
     /// True: the answer is the summary (count, area, box), without samples. Memory then does not
@@ -191,14 +192,14 @@ enum class SignEncoding {
 /// The method for the gradient of the signed distance (section 2.2.3 of the paper). Gradients point
 /// towards increasing signed distance: away from B outside it, and out of B inside it.
 enum class GradientMethod {
-    /// From the nearest feature: the unit vector between the place and the nearest point of B's
+    /// From the nearest feature: the unit vector between the position and the nearest point of B's
     /// boundary. Exact up to rounding; if several points are nearest, it belongs to one of them.
     analytic,
     /// Half the difference of the signed distances at the two neighbouring cells, along x and along
     /// y.
     central_differences,
-    /// The same for the whole image, by blended passes on the device, at the precision of a pixel.
-    /// Technique::raster only; the other techniques fail (invalid_query).
+    /// Central differences of the whole image, by blended passes on the device, at the precision of
+    /// a pixel. Technique::raster only; the other techniques fail (invalid_query).
     blended,
 };
 
@@ -211,7 +212,7 @@ enum class GradientMethod {
 ///         .b = {channel}, .tolerance = 0.1, .rectangle = view});
 ///     const float first = field ? field->values[0] : 0.0F;  // outside: positive
 struct DistanceFieldQuery {
-    using Result = DistanceFieldResult;  ///< its answer (result.hpp)
+    using Result = DistanceFieldResult;  ///< the type of its result (result.hpp)
 
     /// Defines the grid together with B; may be left out (the default) if `rectangle` is set.
     Instance a = {};
@@ -237,7 +238,7 @@ struct DistanceFieldQuery {
     /// shaders to sample (on_device.hpp); for techniques see PenetrationQuery::on_device. `values`
     /// and `features` only select what is also returned to the CPU; both may be false.
     bool on_device = false;
-    /// False: of these only the image of the signed distance, in a fraction of the time. Ignored if
+    /// False: only the image of the signed distance stays, in a fraction of the time. Ignored if
     /// `on_device` is false.
     bool features_on_device = true;
     /// The host's images that the field on the device goes to; null: nearfield's own. Otherwise as
@@ -257,11 +258,12 @@ enum class ContactNormals {
 ///     const auto contacts = context.answer(nearfield::ContactQuery{
 ///         .a = {arrow, pose}, .b = {channel}, .tolerance = 0.05, .contact_distance = 0.1});
 ///     if (contacts) {
-///         for (const auto& cluster : contacts->manifold) { solve(cluster.normal, cluster.extreme);
+///         for (const auto& cluster : contacts->manifold) {
+///             solve(cluster.normal, cluster.extreme);
 ///         }
 ///     }
 struct NEARFIELD_EXPORT ContactQuery {
-    using Result = ContactResult;  ///< its answer (result.hpp)
+    using Result = ContactResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};                ///< first shape
     Instance b = {};                ///< second shape; normals are those of its boundary
@@ -281,7 +283,7 @@ struct NEARFIELD_EXPORT ContactQuery {
 ///         .a = {arrow, far}, .b = {channel}, .tolerance = 0.01});
 ///     const nearfield::Vector2 grip = closest ? closest->point : nearfield::Vector2{};
 struct NEARFIELD_EXPORT ClosestPointQuery {
-    using Result = ClosestPointResult;  ///< its answer (result.hpp)
+    using Result = ClosestPointResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};  ///< the shape whose closest point is computed
     Instance b = {};  ///< the shape that it is closest to
@@ -299,7 +301,7 @@ struct NEARFIELD_EXPORT ClosestPointQuery {
 ///         nearfield::SeparationQuery{.a = {arrow, far}, .b = {channel}, .tolerance = 0.01});
 ///     const bool is_clear = gap && gap->distance > 0.5;
 struct NEARFIELD_EXPORT SeparationQuery {
-    using Result = SeparationResult;  ///< its answer (result.hpp)
+    using Result = SeparationResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};                             ///< first shape
     Instance b = {};                             ///< second shape
@@ -308,14 +310,15 @@ struct NEARFIELD_EXPORT SeparationQuery {
 };
 
 /// Tests whether the closed shapes A and B share a point; ResultSummary::intersects is the answer.
-/// Exact up to the rounding of transformed vertices, so it has no tolerance. Always answered on the
-/// CPU: Technique::automatic or cpu; raster and compute fail (invalid_query).
+/// The answer holds up to the rounding of transformed vertices, so the query has no tolerance.
+/// Always answered on the CPU: Technique::automatic or cpu; raster and compute fail
+/// (invalid_query).
 ///
 ///     const auto test = context.answer(
 ///         nearfield::IntersectionTestQuery{.a = {arrow, pose}, .b = {channel}});
 ///     const bool overlaps = test && test->intersects;
 struct NEARFIELD_EXPORT IntersectionTestQuery {
-    using Result = IntersectionTestResult;  ///< its answer (result.hpp)
+    using Result = IntersectionTestResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};                             ///< first shape
     Instance b = {};                             ///< second shape
@@ -332,7 +335,7 @@ struct NEARFIELD_EXPORT IntersectionTestQuery {
 ///         .a = {arrow, far}, .b = {channel}, .end_a = pose, .tolerance = 0.001});
 ///     const double time = impact ? impact->time : 0.0;  // 1 if they never touch
 struct NEARFIELD_EXPORT TimeOfImpactQuery {
-    using Result = TimeOfImpactResult;  ///< its answer (result.hpp)
+    using Result = TimeOfImpactResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};  ///< with A's pose at time 0
     Instance b = {};  ///< with B's pose at time 0
@@ -348,8 +351,8 @@ struct NEARFIELD_EXPORT TimeOfImpactQuery {
     /// ImpactState::bound_not_reached, after at most two further evaluations.
     std::uint32_t max_steps = 10000;
     /// The distance that counts as touching, world units, >= 0: the query finds the time at which
-    /// the shapes first come this close. For simulations that keep a gap, and parts that need
-    /// clearance.
+    /// the shapes first come this close. Useful for simulations that keep a gap, and for parts that
+    /// need clearance.
     double contact_distance = 0.0;
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };
@@ -359,12 +362,11 @@ struct NEARFIELD_EXPORT TimeOfImpactQuery {
 /// penetration depth is that of single points. Always answered on the CPU, as
 /// IntersectionTestQuery.
 ///
-///     const auto way = context.answer(
-///         nearfield::SeparationVectorQuery{.a = {arrow, pose}, .b = {channel}, .tolerance =
-///         0.01});
+///     const auto way = context.answer(nearfield::SeparationVectorQuery{
+///         .a = {arrow, pose}, .b = {channel}, .tolerance = 0.01});
 ///     const nearfield::Vector2 shift = way ? way->vector : nearfield::Vector2{};
 struct NEARFIELD_EXPORT SeparationVectorQuery {
-    using Result = SeparationVectorResult;  ///< its answer (result.hpp)
+    using Result = SeparationVectorResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};  ///< the shape that moves
     Instance b = {};  ///< the shape that stays
@@ -382,15 +384,15 @@ struct NEARFIELD_EXPORT SeparationVectorQuery {
 
 /// Tests whether A lies inside B, and with how much clearance: A is inside if every point of the
 /// closed shape A is a point of the closed shape B. A part of A outside B, or a hole of B in the
-/// area of A, however small, means that it is not. Exact up to the rounding of transformed
-/// vertices, so it has no tolerance. Goes beyond the paper. Always answered on the CPU, as
-/// IntersectionTestQuery.
+/// area of A, however small, means that it is not. The answer holds up to the rounding of
+/// transformed vertices, so the query has no tolerance. Goes beyond the paper. Always answered on
+/// the CPU, as IntersectionTestQuery.
 ///
 ///     const auto inside = context.answer(
 ///         nearfield::ContainmentQuery{.a = {arrow, pose}, .b = {sheet}});
 ///     const bool fits = inside && inside->inside && inside->clearance >= 0.5;
 struct NEARFIELD_EXPORT ContainmentQuery {
-    using Result = ContainmentResult;  ///< its answer (result.hpp)
+    using Result = ContainmentResult;  ///< the type of its result (result.hpp)
 
     Instance a = {};                             ///< the shape that may be inside
     Instance b = {};                             ///< the shape that may contain it
@@ -435,8 +437,8 @@ public:
     [[nodiscard]] bool times_queries() const noexcept { return times_queries_; }
     /// All queries in order. Borrowed until the batch changes.
     [[nodiscard]] std::span<const AnyQuery> queries() const noexcept { return queries_; }
-    /// Tells this filling of the batch from all others in the process: another one after clear(). 0
-    /// if nothing was ever added. A copy has the same number.
+    /// A number that distinguishes this filling of the batch from all others in the process; it
+    /// changes after clear(). 0 if nothing was ever added. A copy has the same number.
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
 
 private:

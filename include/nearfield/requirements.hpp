@@ -82,9 +82,10 @@ struct Requirements {
     /// blended gradients, timeline semaphores, pass times, names and labels.
     std::vector<OptionalPart> optional;
     /// The optional features that the device offers, for VkDeviceCreateInfo; everything else is
-    /// off. If they are enabled, HostDevice::logic_op is features.logicOp.
+    /// off. A host that enables them sets HostDevice::logic_op to features.logicOp.
     VkPhysicalDeviceFeatures features{};
-    /// Likewise timelineSemaphore, for HostDevice::timeline_semaphore. pNext is null.
+    /// The feature timelineSemaphore, if the device offers it, for HostDevice::timeline_semaphore.
+    /// pNext is null.
     VkPhysicalDeviceTimelineSemaphoreFeatures timeline_semaphore{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES, nullptr, VK_FALSE};
     /// The device extensions that these features need; none from Vulkan 1.2 on.

@@ -51,17 +51,17 @@ struct PenetrationValues {
 struct PenetrationResult : ResultSummary, PenetrationValues {
     using Values = PenetrationValues;  ///< what it states besides summary and points
     using Point = PenetratingPoint;    ///< what it lists
-    /// In order along A's rings. A sequence that continues past the first vertex of a ring may
-    /// stand at the start of the ring as a whole; techniques differ in this.
+    /// In order along A's rings. A sequence that continues past the first vertex of a ring may be
+    /// listed as a whole at the start of the ring; techniques differ in this.
     std::vector<PenetratingPoint> points;
 };
 
 /// One grid sample that lies in both shapes.
 struct IntersectionSample {
-    /// The value of `edge` if A takes part by its volume.
+    /// The value of `edge` if the query uses A's volume.
     static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
     Vector2 position;              ///< the centre of a cell
-    std::uint32_t edge = no_edge;  ///< an edge of A nearby, if A takes part by its boundary
+    std::uint32_t edge = no_edge;  ///< an edge of A nearby, if the query uses A's boundary
 };
 
 /// What an IntersectionResult states besides its summary and samples.
@@ -76,8 +76,8 @@ struct IntersectionValues {
 /// Answer to an IntersectionQuery.
 ///
 /// `error_bound`: every sample is within it of both shapes, and every point that is deeper than it
-/// in both shapes has a sample within it; for a shape that takes part by its boundary, every point
-/// on the boundary.
+/// in both shapes has a sample within it; for a shape whose boundary the query uses, every point on
+/// the boundary.
 struct IntersectionResult : ResultSummary, IntersectionValues {
     using Values = IntersectionValues;        ///< what it states besides summary and samples
     using Point = IntersectionSample;         ///< what it lists
@@ -153,7 +153,7 @@ struct ContactPoint {
 };
 
 /// A few points that represent a cluster of contacts: a connected part of the contact between A and
-/// B along which the normal turns by less than a right angle.
+/// B whose normals are within 45 degrees of their mean.
 struct ContactCluster {
     /// The first end of the cluster, in the order of A's vertices: a point of A's boundary. The
     /// ends are the contacts farthest along the direction at right angles to `normal`, less twice a
@@ -165,8 +165,8 @@ struct ContactCluster {
     /// The deepest contact if some are inside the other shape, otherwise the closest; among A's
     /// contacts and those of B's whose nearest point lies in this cluster.
     ContactPoint extreme;
-    /// Number of contacts of A's boundary. Of B's if A has none in this cluster, for example where
-    /// a tip of B comes close to a long edge of A between two samples.
+    /// Number of contacts of A's boundary, or of B's if A has none in this cluster, for example
+    /// where a tip of B comes close to a long edge of A between two samples.
     std::uint32_t count = 0;
 };
 
@@ -196,9 +196,9 @@ struct ClosestPointValues {
     double distance = 0.0;  ///< from `point` to `nearest`; 0 if the shapes intersect
     Vector2 direction;      ///< unit vector from `point` to `nearest`; (0, 0) at distance 0
     Feature feature_a;      ///< where `point` lies on A's boundary; meaningful if distance > 0
-    Feature feature_b;      ///< where `nearest` lies on B's boundary; likewise
-    /// False if the closest point is one of several: another pair, of which one is a vertex, is as
-    /// close up to d/1000, and its point of A farther from `point` than d.
+    Feature feature_b;      ///< where `nearest` lies on B's boundary; meaningful if distance > 0
+    /// False if the closest point is one of several: another pair, one of them a vertex, is as
+    /// close up to d/1000, and its point of A is farther from `point` than d.
     bool unique = true;
     /// The minimum distance at the points of A that were rendered, at most a cell more than
     /// `distance`. 0 if the shapes intersect; equal to `distance` if nothing was rendered.
@@ -220,7 +220,7 @@ struct SeparationValues {
     Vector2 point_b;        ///< of B
     Vector2 direction;      ///< unit vector from point_a to point_b; (0, 0) at distance 0
     Feature feature_a;      ///< where point_a lies on A's boundary; meaningful if distance > 0
-    Feature feature_b;      ///< where point_b lies on B's boundary; likewise
+    Feature feature_b;      ///< where point_b lies on B's boundary; meaningful if distance > 0
     bool unique = true;     ///< false if the pair is one of several
     /// As ClosestPointResult::sampled_distance, for points of both shapes.
     double sampled_distance = 0.0;
@@ -228,8 +228,8 @@ struct SeparationValues {
 
 /// Answer to a SeparationQuery; `error_bound` and intersecting shapes as for ClosestPointResult.
 /// Swapping A and B gives the same distance. `unique` refers to both points: false if another pair,
-/// of which one is a vertex, is as close up to d/1000 and one of its points is farther than d from
-/// this pair's.
+/// one of them a vertex, is as close up to d/1000 and one of its points is farther than d from this
+/// pair's.
 struct SeparationResult : ResultSummary, SeparationValues {
     using Values = SeparationValues;  ///< what it states besides its summary
     using Point = NoPoint;            ///< what it lists, nothing
@@ -238,9 +238,9 @@ struct SeparationResult : ResultSummary, SeparationValues {
 /// What an IntersectionTestResult states besides its summary: nothing.
 struct IntersectionTestValues {};
 
-/// Answer to an IntersectionTestQuery: `intersects`. Exact, except that shapes whose distance is at
-/// most `error_bound` (the rounding of transformed vertices plus the shapes' deviations) may be
-/// reported either way. `tolerance` and `cell` are 0.
+/// Answer to an IntersectionTestQuery: `intersects`. Shapes whose distance is at most `error_bound`
+/// (the rounding of transformed vertices plus the shapes' deviations) may be reported either way;
+/// all others are reported exactly. `tolerance` and `cell` are 0.
 struct IntersectionTestResult : ResultSummary, IntersectionTestValues {
     using Values = IntersectionTestValues;  ///< what it states besides its summary
     using Point = NoPoint;                  ///< what it lists, nothing
@@ -275,10 +275,10 @@ struct TimeOfImpactValues {
     /// minimum distance exceeds c.
     double min_distance = 0.0;
     Vector2 point_a;          ///< of A at `time`, closest to B; a common point at distance 0
-    Vector2 point_b;          ///< of B at `time`, closest to A; likewise
+    Vector2 point_b;          ///< of B at `time`, closest to A; a common point at distance 0
     Vector2 direction;        ///< unit vector from point_a to point_b; (0, 0) at distance 0
     Feature feature_a;        ///< where point_a lies on A's boundary; meaningful if distance > 0
-    Feature feature_b;        ///< where point_b lies on B's boundary; likewise
+    Feature feature_b;        ///< where point_b lies on B's boundary; meaningful if distance > 0
     std::uint32_t steps = 0;  ///< number of evaluations of the shapes
 };
 
@@ -324,10 +324,10 @@ struct ContainmentValues {
     /// Of A's boundary, closest to B's; at clearance 0 a common point of the boundaries. Both
     /// points are (0, 0) if A is not inside.
     Vector2 point_a;
-    Vector2 point_b;    ///< of B's boundary, closest to A's; likewise
+    Vector2 point_b;    ///< of B's boundary, closest to A's
     Vector2 direction;  ///< unit vector from point_a to point_b; (0, 0) at clearance 0
     Feature feature_a;  ///< where point_a lies on A's boundary; meaningful if clearance > 0
-    Feature feature_b;  ///< where point_b lies on B's boundary; likewise
+    Feature feature_b;  ///< where point_b lies on B's boundary; meaningful if distance > 0
     /// False if the pair is one of several: another one is as close up to the rounding of the
     /// vertices, and one of its points is farther than that from this pair's. True at clearance 0.
     bool unique = true;

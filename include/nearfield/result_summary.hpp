@@ -9,7 +9,7 @@
 #include <vector>
 
 /// \file
-/// What results of different queries have in common.
+/// The members that the results of all queries have.
 
 namespace nearfield {
 
@@ -27,7 +27,7 @@ struct ResultSummary {
     Status status;             ///< of this query alone; if it is an error, ignore the rest
     double tolerance = 0.0;    ///< d of the query
     double error_bound = 0.0;  ///< at most d; the type of the result states what it bounds
-    /// The closed shapes share a point; containment and touching count. Holds for the rings as
+    /// The closed shapes share a point; containment and touching count. This holds for the rings as
     /// given: for shapes with a deviation the opposite can be true if they are no farther apart, or
     /// no deeper in each other, than the sum of their deviations. False for a distance field
     /// without a shape A.

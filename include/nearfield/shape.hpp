@@ -32,9 +32,9 @@ struct Vector2 {
 using Ring = std::vector<Vector2>;
 
 /// A ring in the caller's own numbers, which are read where they lie: vertex i is the pair
-/// numbers[i * stride], numbers[i * stride + 1]. What else lies between the pairs is ignored, so
-/// the vertices may be those of a mesh. Otherwise as Ring; numbers in single precision are exact in
-/// double precision. Borrowed, as a span is.
+/// numbers[i * stride], numbers[i * stride + 1]. Other numbers between the pairs are ignored, so
+/// the vertices may be those of a mesh. Otherwise the ring is as Ring; numbers in single precision
+/// are exact in double precision. Borrowed, as a span is.
 ///
 /// A stride below 2, or numbers that end within a pair, are invalid_shape where the ring is used.
 class RingView {
@@ -42,15 +42,16 @@ public:
     /// In double precision. `stride`: from one vertex to the next, in numbers, not in bytes.
     explicit RingView(std::span<const double> numbers, std::size_t stride = 2) noexcept
         : doubles_(numbers.data()), count_(numbers.size()), stride_(stride) {}
-    /// The same in single precision.
+    /// In single precision. `stride`: from one vertex to the next, in numbers, not in bytes.
     explicit RingView(std::span<const float> numbers, std::size_t stride = 2) noexcept
         : floats_(numbers.data()), count_(numbers.size()), stride_(stride) {}
 
     /// The numbers, from the first one to the last; null if they are in single precision.
     [[nodiscard]] const double* doubles() const noexcept { return doubles_; }
-    /// The same in single precision; null if they are in double precision.
+    /// The numbers in single precision, from the first one to the last; null if they are in double
+    /// precision.
     [[nodiscard]] const float* floats() const noexcept { return floats_; }
-    /// How many numbers there are.
+    /// The count of numbers.
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
     /// From one vertex to the next, in numbers.
     [[nodiscard]] std::size_t stride() const noexcept { return stride_; }

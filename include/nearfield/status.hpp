@@ -16,18 +16,18 @@ namespace nearfield {
 
 /// Kinds of errors.
 enum class StatusCode {
-    ok,                  ///< no error
-    invalid_shape,       ///< invalid rings or paths (not finite, too few vertices, ...)
-    invalid_query,       ///< invalid values in a query (tolerance, pose, rectangle, ...)
-    unknown_shape,       ///< a handle that was never issued, or whose shape was removed
-    unknown_instance,    ///< likewise, of an instance of a world
-    invalid_settings,    ///< invalid settings of a context, or an invalid structure of a host
+    ok,                ///< no error
+    invalid_shape,     ///< invalid rings or paths (not finite, too few vertices, ...)
+    invalid_query,     ///< invalid values in a query (tolerance, pose, rectangle, ...)
+    unknown_shape,     ///< a handle that was never issued, or whose shape was removed
+    unknown_instance,  ///< an instance handle that was never issued, or whose instance was removed
+    invalid_settings,  ///< invalid settings of a context, or an invalid structure of a host
     invalid_submission,  ///< an invalid semaphore, command buffer or frame of a batch
     unknown_ticket,      ///< a ticket that was never issued, or was already collected
     ring_full,           ///< the limit of batches in flight is reached; collect one first
     not_ready,           ///< a recorded batch's frame is not complete, or batches are in flight
     not_executed,        ///< the commands recorded for a batch were never executed
-    not_recordable,      ///< a query takes more than one submission and cannot be recorded
+    not_recordable,      ///< a query needs more than one submission and cannot be recorded
     too_large,           ///< more memory, or a larger output, than a stated limit allows
     no_device,           ///< no Vulkan loader, driver or device, or a context without one
     unsupported_device,  ///< the device does not meet the base; the reasons list everything missing
@@ -40,7 +40,7 @@ enum class StatusCode {
     invalid_shader,    ///< a shader does not compile; the reasons are the compiler's messages
     cancelled,         ///< the caller cancelled the call (Limits::cancel) before this was done
     budget_exhausted,  ///< the time budget of the call (Limits::seconds) ended before
-    overflow,          ///< recorded commands found more than there was room for; record again
+    overflow,          ///< recorded commands found more than their memory holds; record again
 };
 
 /// The name of a code as in the enumeration, e.g. "invalid_shape".
@@ -95,20 +95,20 @@ public:
 
     /// True if there is a value.
     [[nodiscard]] bool has_value() const noexcept { return value_.has_value(); }
-    /// As has_value().
+    /// True if there is a value, as has_value().
     [[nodiscard]] explicit operator bool() const noexcept { return has_value(); }
     /// The error; success (Status::ok()) if there is a value.
     [[nodiscard]] const Status& error() const noexcept { return error_; }
 
-    /// The value, by reference; an rvalue if the Expected is a temporary.
+    /// The value, by reference.
     [[nodiscard]] Value& operator*() & noexcept { return *value_; }
-    /// Likewise.
+    /// The value of a constant Expected, by reference.
     [[nodiscard]] const Value& operator*() const& noexcept { return *value_; }
-    /// Likewise.
+    /// The value of a temporary, as an rvalue.
     [[nodiscard]] Value&& operator*() && noexcept { return std::move(*value_); }
     /// A member of the value.
     [[nodiscard]] Value* operator->() noexcept { return &*value_; }
-    /// Likewise.
+    /// A member of the value of a constant Expected.
     [[nodiscard]] const Value* operator->() const noexcept { return &*value_; }
 
 private:

@@ -8,8 +8,8 @@
 #include <span>
 
 /// \file
-/// What a host gives with each batch: semaphores for a submission, or the command buffer to record
-/// into. Tables of pairs are recorded likewise.
+/// The host's objects for one batch or table: semaphores for a submission, or the command buffer to
+/// record into.
 
 namespace nearfield {
 

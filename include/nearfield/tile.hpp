@@ -23,7 +23,7 @@ struct TileReport {
     /// points of both shapes, have tiles of either side; all other tiles are Side::a.
     Side side = Side::a;
     Vector2 min;  ///< low corner, world coordinates; includes a border around the region
-    Vector2 max;  ///< high corner, likewise
+    Vector2 max;  ///< high corner, world coordinates; includes a border around the region
     std::uint32_t width = 0;   ///< cells along x
     std::uint32_t height = 0;  ///< cells along y
     /// Number of its tile batch: one filling of the atlas, or one dispatch of the compute
@@ -31,7 +31,7 @@ struct TileReport {
     std::uint32_t tile_batch = 0;
     /// First column of the tile in the atlas image, in which a cell is a pixel; 0 for compute.
     std::uint32_t x = 0;
-    std::uint32_t y = 0;  ///< first row, likewise
+    std::uint32_t y = 0;  ///< first row of the tile in the atlas image; 0 for compute
 };
 
 }  // namespace nearfield

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// \file
-/// Where the time of a batch went.
+/// The times of a batch.
 
 namespace nearfield {
 
@@ -17,9 +17,9 @@ struct PassTime {
     double milliseconds = 0.0;  ///< from its first command to the end of its last
 };
 
-/// The time of one query, in milliseconds. What the queries of a batch share is nobody's: the
-/// selection of techniques, packing and upload, recording, the lists of points and samples that
-/// come back from the device, and second submissions.
+/// The time of one query, in milliseconds. Work that the queries of a batch share counts for none
+/// of them: the selection of techniques, packing and upload, recording, the lists of points and
+/// samples that come back from the device, and second submissions.
 struct QueryTime {
     double plan = 0.0;  ///< in submit() and record(): checks, localisation, tiles and points
     /// On the CPU, in the thread that answered: the whole answer if Technique::cpu gave it,
@@ -45,7 +45,7 @@ struct Timings {
     double decode = 0.0;  ///< reading results and refining them; queries answered by the CPU
     double total = 0.0;   ///< inside submit() and collect(), or run(): work and waiting
     std::vector<PassTime> passes;  ///< if Settings::timestamps; empty if the queue has none
-    /// One per query, in order; empty unless the batch asked for it (Batch::time_queries).
+    /// One per query, in order; empty unless requested (Batch::time_queries).
     std::vector<QueryTime> queries;
 };
 

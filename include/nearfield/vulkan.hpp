@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// All of nearfield, for a program that has a Vulkan device: what nearfield.hpp includes, the
+/// All of nearfield, for a program that has a Vulkan device: the contents of nearfield.hpp, the
 /// host's device and command buffers, and results that stay on the device.
 
 #include <nearfield/device_poses.hpp>

@@ -12,12 +12,12 @@
 #include <span>
 
 /// \file
-/// A world: instances of shapes that stay from frame to frame, and questions that name the world
-/// instead of two shapes. Input and output are spans of flat structures, one entry per pose, point
-/// or segment, in the caller's memory; the last argument says which instances are considered, what
-/// limits the call, and who answers (WorldOptions).
+/// A world: instances of shapes that stay from frame to frame, and queries about all of them. Input
+/// and output are spans of flat structures in the caller's memory, one entry per pose, point or
+/// segment. The last argument (WorldOptions) selects the instances considered, the limits of the
+/// call and the technique.
 ///
-/// Answers are exact up to the rounding that each one's error bound states, whoever gives them.
+/// Answers are exact up to the rounding that each one's error bound states, by either technique.
 /// What a world keeps between calls makes them faster and never changes an answer: after any
 /// sequence of calls, each answer is the same, bit for bit, as in a new world to which the present
 /// instances were added in the order of their adding.
@@ -31,8 +31,8 @@ class WorldRequest;
 ///
 /// A shape may be deformed (Context::update_shape) between any two calls; all its instances follow.
 /// Boxes over the edges of a shape and over all instances are made when a query first needs them
-/// and refitted when something changes. A shape that is removed from the context takes its
-/// instances out of all answers, for good.
+/// and refitted when something changes. Removing a shape from the context removes its instances
+/// from all answers, for good.
 ///
 /// Threads: as for the context, which is used by all members; the two count as one object. Many
 /// poses, points, segments and pairs are divided among Settings::jobs. Results do not depend on
@@ -45,13 +45,13 @@ class WorldRequest;
 /// unknown_shape, handles of instances unknown_instance.
 ///
 /// Limits: every call can be given Limits (limits.hpp). If they end it, it fails (cancelled or
-/// budget_exhausted), so that no output looks whole that is not. The time that a world takes to
-/// make and refit boxes counts; it is not divided by checkpoints.
+/// budget_exhausted), so that no output looks whole that is not. The time for making and refitting
+/// boxes counts, but has no checkpoints.
 ///
-/// Techniques: what the CPU alone answers refuses Technique::compute (unsupported_technique). Where
-/// the device is asked, a call also fails with unsupported_technique if the context has no
-/// pipelines of Technique::compute, with too_large if there are more instances or inputs than it
-/// takes (WorldOptions::technique), and as Context::run().
+/// Techniques: a function that only the CPU answers refuses Technique::compute
+/// (unsupported_technique). With Technique::compute a call also fails with unsupported_technique if
+/// the context has no pipelines for it, with too_large if there are more instances or inputs than
+/// WorldOptions::technique allows, and as Context::run().
 ///
 ///     nearfield::World world(context);
 ///     const auto crate = world.add({.shape = box, .pose = start});
@@ -60,10 +60,10 @@ class WorldRequest;
 ///     status = world.cast_rays(segments, hits);
 class NEARFIELD_EXPORT World {
 public:
-    /// An empty world. The program ends if there is no memory for it: where that has to be
+    /// Creates an empty world. The program ends if there is no memory for it: where that has to be
     /// handled, call create().
     explicit World(Context& context) noexcept;
-    /// An empty world. Fails with out_of_memory.
+    /// Creates an empty world. Fails with out_of_memory.
     [[nodiscard]] static Expected<World> create(Context& context);
 
     ~World();
@@ -76,12 +76,12 @@ public:
 
     /// Adds an instance.
     [[nodiscard]] Expected<InstanceHandle> add(const WorldInstance& instance);
-    /// Gives an instance another pose.
+    /// Moves an instance to another pose.
     Status move(InstanceHandle instance, const Pose& pose);
-    /// Gives many instances other poses: instances[i] gets poses[i]. If an instance is named twice,
-    /// the later pose counts. Fails (invalid_query) if the spans differ in length.
+    /// Moves many instances: instances[i] gets poses[i]. If an instance is named twice, the later
+    /// pose counts. Fails (invalid_query) if the spans differ in length.
     Status move(std::span<const InstanceHandle> instances, std::span<const Pose> poses);
-    /// Gives an instance another category and mask.
+    /// Changes the category and mask of an instance.
     Status set_filter(InstanceHandle instance, std::uint32_t category, std::uint32_t mask);
     /// Removes an instance. Its handle stays invalid from then on.
     Status remove(InstanceHandle instance);
@@ -91,17 +91,18 @@ public:
     /// The number of instances.
     [[nodiscard]] std::uint32_t size() const noexcept;
 
-    /// For each segment, the first hit. Of several at the same place, the one of the instance added
-    /// first, at its edge of lowest index. Fails (invalid_query) if the spans differ in length.
+    /// Finds the first hit of each segment. Of several hits at the same point, that of the instance
+    /// added first counts, at its edge of lowest index. Fails (invalid_query) if the spans differ
+    /// in length.
     ///
     ///     std::vector<nearfield::RayHit> hits(segments.size());
     ///     const nearfield::WorldOptions options{.technique = nearfield::Technique::automatic};
     ///     const auto status = world.cast_rays(segments, hits, options);
     Status cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
                      const WorldOptions& options = {});
-    /// For each segment, all hits. A vertex where the segment passes from one edge to the next is
-    /// one hit of each. An edge along the segment is hit where they first meet. Edges without
-    /// length, between repeated vertices, are never hit. The CPU answers.
+    /// Finds all hits of each segment. A vertex where the segment passes from one edge to the next
+    /// is one hit of each edge. An edge along the segment is hit where they first meet. Edges
+    /// without length, between repeated vertices, are never hit. The CPU answers.
     ///
     ///     nearfield::RayHits all;
     ///     const auto status = world.cast_rays(segments, all);
@@ -109,32 +110,33 @@ public:
     Status cast_rays(std::span<const Segment> segments, RayHits& hits,
                      const WorldOptions& options = {});
 
-    /// For each point, the nearest instances or edges in ascending order of NearestHit::distance:
-    /// the instances that the point is inside come first, the deepest at the head. Of equally near
-    /// ones, the instance added first, then the edge of lower index comes first. Point i gets
-    /// hits[i * count] to hits[i * count + count - 1]. Fails (invalid_query) if there are not
-    /// `count` times as many hits as points, and with Technique::compute if `count` is not 1.
+    /// Finds the nearest instances or edges of each point, in ascending order of
+    /// NearestHit::distance. Instances that contain the point come first, the deepest at the head.
+    /// Of equally near ones, the instance added first, then the edge of lower index comes first.
+    /// Point i gets hits[i * count] to hits[i * count + count - 1]. Fails (invalid_query) if there
+    /// are not `count` times as many hits as points, and with Technique::compute if `count` is not
+    /// 1.
     ///
     ///     std::vector<nearfield::NearestHit> hits(3 * points.size());
     ///     const auto status = world.find_nearest({.count = 3, .max_distance = 2.0}, points, hits);
     Status find_nearest(const NearestQuery& query, std::span<const Vector2> points,
                         std::span<NearestHit> hits, const WorldOptions& options = {});
-    /// For each pose, the nearest instances of the shape there in ascending order of
-    /// Clearance::distance, each with its own clearance, as if it were alone in the world: those
-    /// that the shape intersects come first, the deepest at the head. Of equally near ones, the
-    /// instance added first comes first. Pose i gets nearest[i * count] to
-    /// nearest[i * count + count - 1]; where there are fewer, the rest name no instance and have an
-    /// infinite distance. Fails (invalid_query) if there are not `count` times as many entries as
-    /// poses. The CPU answers.
+    /// Finds the nearest instances of the shape at each pose, in ascending order of
+    /// Clearance::distance. Each instance has the clearance that it would have alone in the world.
+    /// Those that the shape intersects come first, the deepest at the head. Of equally near ones,
+    /// the instance added first comes first. Pose i gets nearest[i * count] to nearest[i * count +
+    /// count - 1]; where there are fewer, the rest name no instance and have an infinite distance.
+    /// Fails (invalid_query) if there are not `count` times as many entries as poses. The CPU
+    /// answers.
     ///
     ///     std::vector<nearfield::Clearance> nearest(2 * poses.size());
     ///     const auto status = world.find_nearest({.shape = robot, .count = 2}, poses, nearest);
     Status find_nearest(const ShapeNearestQuery& query, std::span<const Pose> poses,
                         std::span<Clearance> nearest, const WorldOptions& options = {});
-    /// For each pose, the nearest edges of all instances in ascending order of
+    /// Finds the nearest edges of all instances at each pose, in ascending order of
     /// ShapeEdgeHit::distance. Of equally near ones, the instance added first, then the edge of
-    /// lower index comes first. Pose i gets hits[i * count] to hits[i * count + count - 1], of
-    /// which those that were not found name no instance. Fails (invalid_query) if there are not
+    /// lower index comes first. Pose i gets hits[i * count] to hits[i * count + count - 1]; where
+    /// there are fewer edges, the rest name no instance. Fails (invalid_query) if there are not
     /// `count` times as many hits as poses. The CPU answers.
     ///
     ///     std::vector<nearfield::ShapeEdgeHit> edges(8 * poses.size());
@@ -142,17 +144,17 @@ public:
     Status find_nearest(const ShapeEdgeQuery& query, std::span<const Pose> poses,
                         std::span<ShapeEdgeHit> hits, const WorldOptions& options = {});
 
-    /// For each pose, 1 if the shape there and an instance of the world share a point, otherwise 0.
-    /// Exact up to the rounding of transformed vertices, as IntersectionTestQuery. Memory does not
-    /// depend on the number of poses, unless the device answers. Fails (invalid_query) if the spans
-    /// differ in length.
+    /// Writes 1 for each pose at which the shape and an instance of the world share a point,
+    /// otherwise 0. Exact up to the rounding of transformed vertices, as IntersectionTestQuery.
+    /// Memory does not depend on the number of poses, unless the device answers. Fails
+    /// (invalid_query) if the spans differ in length.
     ///
     ///     std::vector<std::uint8_t> blocked(poses.size());
     ///     const nearfield::WorldOptions options{.filter = {.ignored = handle_of_robot}};
     ///     const auto status = world.test_poses(robot, poses, blocked, options);
     Status test_poses(ShapeHandle shape, std::span<const Pose> poses,
                       std::span<std::uint8_t> intersects, const WorldOptions& options = {});
-    /// For each pose, the least distance of the shape there from the world. Neighbouring poses in
+    /// Finds the least distance of the shape from the world at each pose. Neighbouring poses in
     /// sequence are faster than poses in random order. Exact up to the rounding of transformed
     /// vertices. Memory does not depend on the number of poses. Fails (invalid_query) if the spans
     /// differ in length. The CPU answers.
@@ -163,17 +165,16 @@ public:
     Status find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
                            std::span<Clearance> clearances, const WorldOptions& options = {});
 
-    /// For each motion of a shape, when it first touches the world. Fails (invalid_query) if the
-    /// spans differ in length, or if the tolerance is too small for the coordinates of what a
-    /// motion comes near; and as Context::run(), with ring_full if all batches are in flight. The
-    /// CPU answers.
+    /// Finds when the shape first touches the world, for each motion. Fails (invalid_query) if the
+    /// spans differ in length, or if the tolerance is too small for the coordinates near a motion;
+    /// and as Context::run(), with ring_full if all batches are in flight. The CPU answers.
     ///
     ///     std::vector<nearfield::ShapeCastHit> hits(sweeps.size());
     ///     const auto status = world.cast_shape({.shape = robot, .tolerance = 1e-3}, sweeps, hits);
     Status cast_shape(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
                       std::span<ShapeCastHit> hits, const WorldOptions& options = {});
 
-    /// For each rectangle, the instances with which it shares a point, exact up to the rounding of
+    /// Finds the instances with which each rectangle shares a point, exact up to the rounding of
     /// transformed vertices. The CPU answers.
     ///
     ///     nearfield::InstanceLists lists;
@@ -181,14 +182,14 @@ public:
     ///     for (const auto& handle : lists.instances) { draw(handle); }
     Status find_overlaps(std::span<const Rectangle> rectangles, InstanceLists& lists,
                          const WorldOptions& options = {});
-    /// For each point, the instances that it lies in, or up to rounding on the boundary of. The CPU
-    /// answers.
+    /// Finds the instances that contain each point, or have it on their boundary up to rounding.
+    /// The CPU answers.
     ///
     ///     nearfield::InstanceLists under;
     ///     const auto status = world.find_overlaps(std::span(&cursor, 1), under);
     Status find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
                          const WorldOptions& options = {});
-    /// For each pose, the instances with which the shape there shares a point, exact up to the
+    /// Finds the instances with which the shape shares a point at each pose, exact up to the
     /// rounding of transformed vertices. The CPU answers.
     ///
     ///     nearfield::InstanceLists touched;
@@ -196,11 +197,11 @@ public:
     Status find_overlaps(ShapeHandle shape, std::span<const Pose> poses, InstanceLists& lists,
                          const WorldOptions& options = {});
 
-    /// Does the first half of cast_rays() with first hits, of which WorldRequest::collect() is the
-    /// second: uploads the segments, and what has changed of the instances, and lets the device
-    /// begin, or, with Technique::cpu, answers and keeps the hits. Nothing is borrowed when this
-    /// returns. Fails as cast_rays(), and with not_ready if something was submitted by `request`
-    /// and not collected. After any other error nothing is submitted.
+    /// Does the first half of cast_rays() with first hits; WorldRequest::collect() is the second
+    /// half. Uploads the segments and the instances that have changed, and starts the device. With
+    /// Technique::cpu it answers at once and keeps the hits. Nothing is borrowed when this returns.
+    /// Fails as cast_rays(), and with not_ready if something was submitted by `request` and not
+    /// collected. After any other error nothing is submitted.
     ///
     ///     nearfield::WorldRequest rays;  // kept from frame to frame
     ///     const nearfield::WorldOptions options{.technique = nearfield::Technique::compute};
@@ -209,13 +210,13 @@ public:
     ///     status = status.ok() ? rays.collect(hits) : status;
     Status submit(WorldRequest& request, std::span<const Segment> segments,
                   const WorldOptions& options = {});
-    /// Does the first half of find_nearest() for points, as for segments.
+    /// Does the first half of find_nearest() for points; otherwise as for segments.
     ///
     ///     auto status = world.submit(request, {.max_distance = 2.0}, points);
     ///     status = status.ok() ? request.collect(near) : status;
     Status submit(WorldRequest& request, const NearestQuery& query, std::span<const Vector2> points,
                   const WorldOptions& options = {});
-    /// Does the first half of test_poses(), as for segments.
+    /// Does the first half of test_poses(); otherwise as for segments.
     ///
     ///     auto status = world.submit(request, robot, poses);
     ///     status = status.ok() ? request.collect(blocked) : status;
@@ -223,36 +224,36 @@ public:
                   const WorldOptions& options = {});
 
     /// Brings a table of pairs (world_pairs.hpp) up to date: submit() and PairTable::collect() in
-    /// one. `input`: what the table is told besides. Fails with invalid_query if query, options or
-    /// input are invalid or do not fit each other; with unknown_instance, if the input names one
-    /// that is none; with not_ready if the table was submitted and not collected; if `limits` end
-    /// the call; and as Context::run(). By Technique::compute also with unsupported_technique if
-    /// the context has no pipelines for it, and with too_large if there are more instances than
-    /// 2^18, or more pairs or points than the device has memory for. After an error but not_ready,
-    /// and but for limits that are refused themselves, the table is empty. Errors of single pairs
+    /// one. `input` has what the table needs besides the world. Fails with invalid_query if query,
+    /// options or input are invalid or contradict each other; with unknown_instance if the input
+    /// names an instance that does not exist; with not_ready if the table was submitted and not
+    /// collected; if `limits` end the call; and as Context::run(). By Technique::compute also with
+    /// unsupported_technique if the context has no pipelines for it, and with too_large if there
+    /// are more instances than 2^18, or more pairs or points than the device has memory for. After
+    /// any error except not_ready and invalid limits, the table is empty. Errors of single pairs
     /// are the status of their rows.
     Status update(PairTableBase& table, const PairTableInput& input = {},
                   const Limits& limits = {});
-    /// Does the first half of it: uploads what has changed, and lets the device begin; or, by
-    /// Technique::cpu, answers the pairs. The second half is PairTable::collect(); until then the
+    /// Does the first half of update(): uploads what has changed and starts the device. By
+    /// Technique::cpu it answers the pairs. PairTable::collect() is the second half; until then the
     /// table has no rows. Instances and shapes may change meanwhile: the table describes them as
     /// they were. Fails as update().
     Status submit(PairTableBase& table, const PairTableInput& input = {},
                   const Limits& limits = {});
-    /// Records what submit() submits into a command buffer of the host, which may submit it again
-    /// and again: see PairTable. Submits nothing and waits for nothing. Fails as submit(), with
-    /// invalid_submission as Context::record(), and with invalid_query if the table is answered by
-    /// the CPU; nothing has been recorded then.
+    /// Records what submit() submits into a command buffer of the host, which may submit it any
+    /// number of times: see PairTable. Submits nothing and waits for nothing. Fails as submit(),
+    /// with invalid_submission as Context::record(), and with invalid_query if the table is
+    /// answered by the CPU; nothing has been recorded then.
     Status record(PairTableBase& table, const Recording& recording,
                   const PairTableInput& input = {}, const Limits& limits = {});
-    /// False if a table has to be recorded (again): collect() found no room, or instances, filters
-    /// or any shape of the context have changed since. Poses are not compared.
+    /// False if a table has to be recorded (again): collect() reported an overflow, or instances,
+    /// filters or any shape of the context have changed since. Poses do not count.
     [[nodiscard]] bool is_recorded(const PairTableBase& table) const noexcept;
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.
     [[nodiscard]] std::uint64_t memory_use() const noexcept;
-    /// Gives back what is kept to make queries faster; the next queries make it again.
+    /// Frees what is kept to make queries faster; the next queries make it again.
     void trim() noexcept;
 
 private:

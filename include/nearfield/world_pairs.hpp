@@ -14,37 +14,35 @@
 #include <type_traits>
 
 /// \file
-/// One query of the pairs of a world, asked again frame after frame.
+/// One query for pairs of a world, answered frame after frame.
 
 namespace nearfield {
 
 struct PairsOnDevice;
 
-/// Which pairs a PairTable asks about, which of them have a row, and who answers.
+/// The pairs of a PairTable, those of them that have a row, and the technique.
 struct PairTableOptions {
     /// Pairs of instances whose bounding boxes are at most this far apart along both axes are
-    /// candidates: world units, >= 0; 0: the closed boxes overlap. Up to the rounding of their
-    /// vertices: shapes touch up to that, and no touching pair is lost. The contact distance of a
-    /// query that has one counts if it is larger. With `hits_only` the reach matters to separations
-    /// and closest points alone, as no other pair that is farther apart is hit. Filters apply
-    /// (WorldInstance).
+    /// candidates: world units, >= 0; 0: the closed boxes overlap. The boxes include the rounding
+    /// of their vertices, so no touching pair is lost. If the query has a larger contact distance,
+    /// that counts. With `hits_only` the reach matters only for separations and closest points,
+    /// because no other pair that is farther apart is hit. Filters apply (WorldInstance).
     double reach = 0.0;
-    /// True: the table has only the pairs that are hit. Of penetrations these are the ones of which
-    /// `a` has a penetrating point; of contacts those that have one or intersect; of separations
-    /// and closest points those that intersect or are at most `reach` apart; of containment those
-    /// with `a` inside `b`; of times of impact those that are not ImpactState::separated; of other
-    /// queries those that intersect; and of all queries those whose status is an error.
-    /// False: all candidates.
+    /// True: only pairs that are hit have a row. Penetrations are hit if `a` has a penetrating
+    /// point; contacts if there is one or the shapes intersect; separations and closest points if
+    /// the shapes intersect or are at most `reach` apart; containment if `a` is inside `b`; times
+    /// of impact if they are not ImpactState::separated; other queries if the shapes intersect.
+    /// Pairs whose status is an error have a row, too. False: all candidates have a row.
     bool hits_only = false;
-    /// True: the pairs are those that each update is given (PairTableInput::a and b), in that
-    /// order, in either order of their instances, and again as often as they are named, whatever
-    /// their boxes and filters. The query is not TimeOfImpactQuery.
+    /// True: each update passes the pairs (PairTableInput::a and b). Rows have their order. A pair
+    /// may be repeated and may name its instances in either order; boxes and filters do not matter.
+    /// Not allowed for TimeOfImpactQuery.
     bool listed = false;
-    /// Who answers: Technique::cpu or Technique::compute. Rows are the same, as answers of the two
-    /// techniques are (Technique). Technique::automatic leaves it to the query's own technique, and
-    /// if that is automatic, too, takes compute where nothing else can: if the query is resident,
-    /// if the poses are the host's (DevicePoses), or if commands are recorded; and otherwise on a
-    /// hardware device, for what compute answers; else cpu.
+    /// The technique: Technique::cpu or Technique::compute. Rows agree as the answers of two
+    /// techniques do (Technique). Technique::automatic stands for the query's own technique. If
+    /// that is automatic, too, it is compute where only a device can answer: if the query's results
+    /// stay on the device, if the poses are the host's (DevicePoses), or if commands are recorded.
+    /// Otherwise it is compute on a hardware device for what compute answers, else cpu.
     Technique technique = Technique::automatic;
 };
 
@@ -58,51 +56,54 @@ struct PairRow : Query::Result::Values {
     StatusCode status = StatusCode::ok;
     bool intersects = false;        ///< as ResultSummary::intersects
     double error_bound = 0.0;       ///< as ResultSummary::error_bound
-    std::uint32_t index = 0;        ///< its place among the rows of its table
+    std::uint32_t index = 0;        ///< its position among the rows of its table
     std::uint32_t point_count = 0;  ///< the number of PairTable::points()
 };
 
 /// The parts of a PairTable that do not depend on the kind of its query.
 class NEARFIELD_EXPORT PairTableBase {
 public:
-    /// Which pairs are asked about, and who answers.
+    /// The options that the table was made with.
     [[nodiscard]] const PairTableOptions& options() const noexcept;
     /// The number of rows.
     [[nodiscard]] std::uint32_t size() const noexcept;
-    /// The number of candidates at the last update, hit or not, as the CPU or the device computes
-    /// their boxes; of a list, of its pairs. Both orders of a pair count where both have a row.
+    /// The number of candidates at the last update, hit or not, by the boxes of the CPU or the
+    /// device; for a list, the number of its pairs. Both orders of a pair count where both have a
+    /// row.
     [[nodiscard]] std::uint32_t candidates() const noexcept;
-    /// How many of them the last update had the CPU answer: those of which something has changed,
-    /// or, by Technique::compute, those that single precision cannot decide.
+    /// The number of candidates that the CPU answered at the last update: pairs that have changed
+    /// or, by Technique::compute, pairs that single precision cannot decide.
     [[nodiscard]] std::uint32_t left_to_cpu() const noexcept;
-    /// Of the last update. `plan`: pairs are found on the CPU, or what has changed is uploaded;
-    /// `device`: the wait; `decode`: pairs that the CPU answered; `total`: of both halves, without
-    /// what is between them.
+    /// The times of the last update. `plan`: finding pairs on the CPU, or the upload of what has
+    /// changed; `device`: the wait; `decode`: pairs that the CPU answered; `total`: both halves,
+    /// without the time between them.
     [[nodiscard]] const Timings& timings() const noexcept;
 
-    /// Makes the rows of what World::submit() began: waits for the device, has the CPU answer the
-    /// pairs that are left to it, and, where there was no room for all pairs, submits again and
-    /// waits; the memory has grown then. By Technique::cpu the pairs have been answered already.
-    /// Fails with not_ready if nothing was submitted; otherwise as World::update().
+    /// Completes what World::submit() began: waits for the device, answers the undecided pairs on
+    /// the CPU and makes the rows. If the memory was too small for all pairs, it grows, and the
+    /// search is submitted and waited for again. By Technique::cpu the pairs have been answered
+    /// already. Fails with not_ready if nothing was submitted; otherwise as World::update().
     ///
-    /// After World::record(), neither submits nor waits, and may be called again (PairTable). Fails
-    /// with not_ready if the frame is not complete, with not_executed if the device has not
-    /// executed the commands, and with overflow if there was no room for all pairs; the reasons
-    /// then say of what there were more. The table has no rows after an error, and what was
-    /// recorded stays as it is.
+    /// After World::record() it neither submits nor waits, and may be called again (PairTable). It
+    /// fails with not_ready if the frame is not complete, with not_executed if the device has not
+    /// executed the commands, and with overflow if the memory was too small for all pairs; the
+    /// reasons then name what exceeded it. The table has no rows after an error, and the recorded
+    /// commands stay valid.
     Status collect(const Limits& limits = {});
     /// True if collect() would not wait for what World::submit() began, or if the frame of
     /// World::record() is complete; never waits. Also true once the device is lost. False if
     /// nothing was submitted or recorded.
     [[nodiscard]] bool is_ready() const noexcept;
 
-    /// What the device leaves for the host's shaders, if the query is resident; see PairsOnDevice
-    /// (pairs_on_device.hpp) for how long. Fails with invalid_query if it is not, with not_ready if
-    /// nothing was submitted or recorded, or the world has fewer than two instances.
+    /// The results on the device, for the host's shaders, if the query has `on_device`;
+    /// PairsOnDevice (pairs_on_device.hpp) states how long they are valid. Fails with invalid_query
+    /// if it has not, with not_ready if nothing was submitted or recorded, or the world has fewer
+    /// than two instances.
     [[nodiscard]] Expected<PairsOnDevice> on_device() const;
 
-    /// Why a span of rows, points or clusters is empty that should not be: host memory ran out
-    /// where they were made exact. Success since the last update or collect() otherwise.
+    /// The reason why a span of rows, points or clusters is empty although it should not be: host
+    /// memory ran out while they were made exact. Success otherwise, since the last update or
+    /// collect().
     [[nodiscard]] const Status& read_status() const noexcept;
 
 protected:
@@ -111,7 +112,7 @@ protected:
     ~PairTableBase();
     /// Takes the contents of another table, which can then only be destroyed or assigned to.
     PairTableBase(PairTableBase&&) noexcept;
-    /// Likewise.
+    /// Drops its own contents and takes those of another table.
     PairTableBase& operator=(PairTableBase&&) noexcept;
 
     friend class World;
@@ -122,40 +123,39 @@ protected:
 /// ClosestPointQuery, SeparationQuery, IntersectionTestQuery, SeparationVectorQuery,
 /// ContainmentQuery or TimeOfImpactQuery. World::update() brings the table up to date.
 ///
-/// The pairs are found by their boxes, or given as a list (PairTableOptions::listed). Of pairs that
-/// are found, separations, intersection tests and times of impact have one row, with the instance
-/// added first as `a`; the other queries have two, each instance being `a` once. Rows are in
-/// ascending order of the pairs, in the order in which their instances were added: by `a`, then by
-/// `b`. Rows of a list are in its order.
+/// The pairs are found by their boxes, or given as a list (PairTableOptions::listed). A pair that
+/// is found has one row for separations, intersection tests and times of impact, with the instance
+/// added first as `a`; for other queries it has two, each instance being `a` once. Rows are in the
+/// order in which instances were added: by `a`, then by `b`. Rows of a list are in its order.
 ///
-/// Times of impact: PairTableInput says where instances move to. Bounding boxes are then those of
-/// the whole motions, turns included, so that no impact is missed; of two that stand still, the row
-/// says whether they touch.
+/// Times of impact: PairTableInput has the poses that instances move to. Bounding boxes are then
+/// those of the whole motions, turns included, so that no impact is missed. If both instances stand
+/// still, the row says whether they touch.
 ///
-/// By Technique::cpu, a pair that was found and neither of whose instances has moved or deformed
-/// since the last update, nor moves otherwise, keeps its row. The rows are the same, bit for bit,
-/// as in a new table, and as the answers to queries of the pairs one by one (Context::answer()).
+/// By Technique::cpu, a pair that was found keeps its row as long as neither instance moves or
+/// deforms. The rows are the same, bit for bit, as in a new table, and as the answers to queries of
+/// the pairs one by one (Context::answer()).
 ///
-/// By Technique::compute the device finds the pairs and answers the query: PenetrationQuery;
-/// ContactQuery with analytic normals; IntersectionTestQuery; of SeparationQuery and
-/// ClosestPointQuery, which pairs have a row. Only hits have rows: a table of all candidates, or of
-/// a list, is refused (invalid_query). The CPU's time in World::update() grows with the number of
-/// instances that have moved and with that of pairs left to it, not with the number of pairs. What
-/// is read is made exact then, in double precision, or answered by the CPU: one row by row(), or
-/// all by rows(), which are kept until the next update. Results are those of Technique::cpu as the
-/// answers of two techniques are (Technique); intersection tests, separations and closest points
-/// have the same rows.
+/// By Technique::compute the device finds the pairs and answers PenetrationQuery, ContactQuery with
+/// analytic normals, and IntersectionTestQuery. For SeparationQuery and ClosestPointQuery it
+/// decides which pairs have a row. Only hits have rows: a table of all candidates, or of a list, is
+/// refused (invalid_query). The CPU's time in World::update() grows with the number of instances
+/// that have moved and of pairs that the device could not decide, not with the number of pairs. The
+/// CPU makes rows exact in double precision when they are read: one by row(), or all by rows(),
+/// which are kept until the next update. Results agree with those of Technique::cpu as the answers
+/// of two techniques do (Technique); intersection tests, separations and closest points have the
+/// same rows.
 ///
-/// Limits of Technique::compute: 2^18 instances, and some 50,000 instances whose boxes overlap with
-/// that of a single one; World::update() fails (too_large) beyond these, where what is found of all
-/// pairs needs more memory than Settings::memory_limit, and where the pairs of one instance, or
-/// results that stay on the device, need more of one buffer than the device's shaders reach. Where
-/// all pairs at once need more than either, the device searches them in parts, one after the other,
-/// with the same rows; of contacts that takes up to twice as long.
+/// Limits of Technique::compute: 2^18 instances, and some 50,000 instances whose boxes overlap that
+/// of a single one. World::update() fails (too_large) beyond these, if the results of all pairs
+/// need more memory than Settings::memory_limit, and if the pairs of one instance, or results that
+/// stay on the device, need a larger buffer than the device's shaders can address. If all pairs at
+/// once need more than either, the device searches them in parts, one after the other, with the
+/// same rows; for contacts that takes up to twice as long.
 ///
 /// World::update() waits for the device. A frame that has other work for the CPU calls
-/// World::submit() first and collect() after that work; what needs the rows of the frame before
-/// meanwhile has two tables, in turns.
+/// World::submit() first and collect() after that work. Two tables, used in turns, keep the rows of
+/// the previous frame readable meanwhile.
 ///
 /// Poses are the world's, or those that the host's commands write on the device (DevicePoses): rows
 /// are exact at these too.
@@ -166,29 +166,28 @@ protected:
 ///   before or after, but for its poses (DevicePoses). What changes in the command buffer, primary
 ///   or secondary, is the compute pipeline, its descriptor set 0 and its push constants. With fewer
 ///   than two instances nothing is recorded.
-/// - The same commands may be submitted any number of times, if their command buffer was begun so;
-///   the library does no work in between. Each execution finds the pairs of the instances, shapes
-///   and filters that were recorded at the poses that are then in the buffer of DevicePoses, and
-///   leaves results on the device. It waits for what the execution before, and the host's shaders
-///   after that (OutputState), have read. A pose that is none is taken for (0, 0), not turned.
+/// - The same commands may be submitted any number of times, if the command buffer allows it; the
+///   library does no work in between. Each execution finds the pairs of the instances, shapes and
+///   filters that were recorded at the poses that are then in the buffer of DevicePoses, and leaves
+///   results on the device. It waits for what the execution before, and the host's shaders after
+///   that (OutputState), have read. An invalid pose counts as (0, 0), not turned.
 /// - collect() makes the rows from the last execution, each time it is called. The device must not
 ///   execute the commands during this call, nor while rows are read.
 /// - Where memory is too small, nothing searches again: the headers of results on the device say so
-///   (`overflow`), and collect() fails. The next call of World::record() makes room for what was
-///   found, collected or not; later steps of the search have not seen what earlier ones had no room
-///   for, so that up to five calls can be needed. World::update() makes room for all at once, and
-///   orders the instances by the poses on the device, which makes later searches faster.
+///   (`overflow`), and collect() fails. The next call of World::record() grows the memory to what
+///   was found, collected or not. A later step of the search sees only what earlier steps could
+///   store, so up to five calls can be needed. World::update() grows all memory at once, and orders
+///   the instances by the poses on the device, which makes later searches faster.
 /// - What was recorded, with all handles of results on the device, holds until the table is
-/// recorded,
-///   submitted or updated again, successfully or not, unless that fails with not_ready or
+///   recorded, submitted or updated again, successfully or not, unless that fails with not_ready or
 ///   invalid_submission; until the table is destroyed or assigned to; and until reload_shaders().
-///   By then the device must be done with it. Whatever happens to the world, its shapes or
-///   Context::trim() changes nothing about it: World::is_recorded() tells whether it is still about
-///   the world as it is.
+///   By then the device must be done with it. Changes of the world and its shapes, and
+///   Context::trim(), do not affect it; World::is_recorded() tells whether it still describes the
+///   world.
 /// - Until the frame that it was recorded for is complete, the table cannot be recorded, submitted
 ///   or updated again (not_ready). Later submissions of the commands are not known to the library.
 ///
-/// Used with one world at a time; a table that comes to another world starts anew. It keeps its
+/// A table is used with one world at a time; with another world it starts anew. It keeps its
 /// memory, on the device too, from update to update, and describes the world as it was at the last
 /// one.
 ///
@@ -199,9 +198,9 @@ class NEARFIELD_EXPORT PairTable : public PairTableBase {
 public:
     using Point = typename Query::Result::Point;  ///< what a row has several of; see the result
 
-    /// A table without rows. Of the query, `a` and `b` are ignored, as are the end poses of a time
-    /// of impact. Its technique is that of the options, or automatic; targets
-    /// (PenetrationQuery::target) are rejected by World::update().
+    /// A table without rows. The query's `a` and `b` are ignored, and so are the end poses of a
+    /// time of impact. Its technique is that of the options, or automatic. World::update() rejects
+    /// targets (PenetrationQuery::target).
     explicit PairTable(const Query& query, const PairTableOptions& options = {});
 
     /// The query, as it was given.
@@ -209,14 +208,14 @@ public:
 
     /// All rows, until the next update. See read_status().
     [[nodiscard]] std::span<const PairRow<Query>> rows() noexcept;
-    /// One row; fails (invalid_query) if there are fewer. Makes no other exact.
+    /// One row; fails (invalid_query) if there are fewer. Makes no other row exact.
     [[nodiscard]] Expected<PairRow<Query>> row(std::uint32_t index);
-    /// The points of a row of this table, in the order of the query's result; none if the query
-    /// does without. Valid until the next call of this function and the next update. See
+    /// The points of a row of this table, in the order of the query's result; none if the query has
+    /// `summary_only`. Valid until the next call of this function and the next update. See
     /// read_status().
     [[nodiscard]] std::span<const Point> points(const PairRow<Query>& row) noexcept;
-    /// Of contacts: the manifold of a row (ContactResult::manifold), also where the query asks
-    /// for the summary alone. Valid as long as points().
+    /// For contacts, the manifold of a row (ContactResult::manifold), also with `summary_only`.
+    /// Valid as long as points().
     [[nodiscard]] std::span<const ContactCluster> manifold(
         const PairRow<Query>& row) noexcept requires std::is_same_v<Query, ContactQuery>;
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 /// \file
-/// Instances of a world, and what its queries are asked and answer (world.hpp). One entry each; of
-/// many, a caller has a flat array.
+/// Instances of a world, and the inputs and answers of its queries (world.hpp). Each structure is
+/// one entry; a caller passes flat arrays of them.
 
 namespace nearfield {
 
@@ -49,20 +49,19 @@ struct WorldFilter {
     InstanceHandle ignored = {};
 };
 
-/// The last argument of what a world is asked about many inputs.
+/// The last argument of a world's functions with many inputs.
 struct WorldOptions {
     WorldFilter filter = {};  ///< the instances considered
     Limits limits = {};       ///< of this call
-    /// Who answers. The answers are the same, bit for bit.
+    /// The technique that answers. The answers are the same, bit for bit.
     /// - Technique::cpu answers everything.
     /// - Technique::compute answers World::cast_rays() with first hits, World::find_nearest() of
     ///   points with a NearestQuery::count of 1, and World::test_poses(). The device walks over
-    ///   boxes in single precision and names the edges that the answer may be about; the CPU
-    ///   computes the answer from these in double precision, and answers by itself where single
-    ///   precision cannot tell. It takes at most 2^18 instances, and as many inputs as
-    ///   Settings::memory_limit allows and as a buffer of the device has room for: at least 4
-    ///   million, where an answer takes 32 bytes. Where the device is another one than the
-    ///   processor, it is faster from about a thousand inputs on.
+    ///   boxes in single precision and names the edges that may decide the answer; the CPU computes
+    ///   the answer from these in double precision, and answers alone where single precision cannot
+    ///   tell. There may be at most 2^18 instances, and as many inputs as Settings::memory_limit
+    ///   allows and a buffer of the device holds: at least 4 million, at 32 bytes an answer. A
+    ///   hardware device is faster from about a thousand inputs on.
     /// - Technique::automatic is Technique::compute for thousands of inputs that a hardware device
     ///   can answer, otherwise Technique::cpu.
     /// - Technique::raster answers nothing of a world (unsupported_technique).
@@ -72,8 +71,8 @@ struct WorldOptions {
 /// One shape at many poses: World::find_clearances().
 struct ClearanceQuery {
     ShapeHandle shape = {};  ///< of the world's context
-    /// Clearances of at most this are not told apart, which saves time: the answer is this value,
-    /// and no instance. World units.
+    /// Clearances of at most this are not distinguished, which saves time: the answer is this
+    /// value, and no instance. World units.
     double min_clearance = -std::numeric_limits<double>::infinity();
     /// Instances farther away than this are not considered, which saves time: if there is no other,
     /// the answer is this value, and no instance. World units, >= 0 and above `min_clearance`.
@@ -83,9 +82,9 @@ struct ClearanceQuery {
 /// The least distance of a shape at one pose from the instances of a world. Of several that are
 /// equally near, the instance added first counts.
 struct Clearance {
-    /// World units. Positive: the least distance of the shape from any instance. Otherwise it
-    /// intersects instances: minus the depth of the deepest vertex, of the shape in any of them or
-    /// of any of them in the shape; 0 if boundaries cross and no vertex is inside.
+    /// World units. Positive: the least distance of the shape from any instance. Otherwise the
+    /// shape intersects instances: minus the depth of the deepest vertex, of the shape in any of
+    /// them or of any of them in the shape; 0 if boundaries cross and no vertex is inside.
     double distance = std::numeric_limits<double>::infinity();
     /// Of `distance`, if there is an instance: rounding plus the shapes' deviations.
     double error_bound = 0.0;
@@ -201,8 +200,8 @@ struct ShapeCastQuery {
 /// When a moving shape first touches a world.
 struct ShapeCastHit {
     ImpactState state = ImpactState::separated;  ///< the outcome
-    /// The one touched first; none if separated. Of several, one touched at the start, then the one
-    /// added first.
+    /// The instance touched first; none if separated. Of several, one touched at the start comes
+    /// first, then the one added first.
     InstanceHandle instance = {};
     double time = 1.0;              ///< as TimeOfImpactResult::time: never late
     double time_error_bound = 0.0;  ///< as TimeOfImpactResult::time_error_bound
@@ -212,20 +211,20 @@ struct ShapeCastHit {
     Vector2 direction = {};  ///< unit vector from `point` to `nearest`; (0, 0) where they meet
 };
 
-/// What a PairTable is told at an update, besides the world. What its query and options do not use
-/// stays empty. Borrowed during the call.
+/// The input of a PairTable's update, besides the world. Members that its query and options do not
+/// use stay empty. Borrowed during the call.
 struct PairTableInput {
     std::span<const InstanceHandle> a = {};  ///< PairTableOptions::listed: of pair i, its `a`
     std::span<const InstanceHandle> b = {};  ///< the same number of them: its `b`
-    /// Of times of impact: the instances that move, from time 0 to time 1, as TimeOfImpactQuery
-    /// describes it. All others stand still. They keep their poses: a step that goes to its end is
-    /// followed by World::move(moving, ends).
+    /// For times of impact, the instances that move from time 0 to time 1, as TimeOfImpactQuery
+    /// describes it. All others stand still. The update does not change poses: a step that is
+    /// completed is followed by World::move(moving, ends).
     std::span<const InstanceHandle> moving = {};
     /// The pose that moving[i] goes to. If an instance is named twice, its later one counts.
     std::span<const Pose> ends = {};
     /// By Technique::compute: the poses of all instances, which the host's commands write on the
-    /// device (device_poses.hpp). Those that the world keeps are neither used nor changed. Null:
-    /// they count.
+    /// device (device_poses.hpp). The world's own poses are then neither used nor changed. Null:
+    /// the world's own poses count.
     const DevicePoses* poses = nullptr;
 };
 
