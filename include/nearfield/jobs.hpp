@@ -17,14 +17,13 @@ inline constexpr std::uint32_t max_jobs = 256;
 /// library starts no thread of its own. By default the calling thread does everything.
 ///
 /// Results are the same, bit for bit, for any number of jobs and threads and without a job system.
-/// Not divided: a single query, work that the device does, and work before there are queries to
-/// answer (adding shapes, finding pairs, planning).
+/// Not divided: a single query, work that the device does, the results read from it, and work
+/// before there are queries to answer (adding shapes, finding pairs, planning).
 struct JobSystem {
     void* user = nullptr;  ///< passed to `run`
     /// Maximum number of jobs per batch, 1 to `max_jobs`; 0 if `run` is not set. The number of
     /// threads is a good choice; twice that balances uneven queries better. Each job has memory of
-    /// its own that is kept from batch to batch; there are fewer jobs if Settings::memory_limit
-    /// does not allow that many.
+    /// its own that is kept from batch to batch.
     std::uint32_t count = 0;
     /// Must call `job(data, 0)`, ..., `job(data, jobs - 1)`, each once, in any order, on any
     /// threads, concurrently or not, and return when all have returned and their writes are visible

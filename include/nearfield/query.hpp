@@ -72,9 +72,8 @@ enum class Technique {
     ///
     /// ResultSummary::regions are not sampled grids for points. They are the common box of both
     /// shapes (none for the summary of a penetration); for contacts the box around the parts of
-    /// either shape that lie in the other's box grown by the contact distance; and the regions that
-    /// localisation found if normals are gradients, or if Settings::memory_limit does not allow all
-    /// samples of the boundaries to be kept at once. Closest points have none.
+    /// either shape that lie in the other's box grown by the contact distance. Closest points have
+    /// none.
     cpu,
 };
 

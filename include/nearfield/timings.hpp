@@ -35,7 +35,7 @@ struct QueryTime {
 /// to more than the total. Pipelines that a call has to make (Settings::pipelines_on_demand) are in
 /// none of them; the log has their times.
 struct Timings {
-    double localize = 0.0;  ///< hierarchies on the CPU
+    double localize = 0.0;  ///< hierarchies on the CPU, for what a device answers
     double plan = 0.0;      ///< technique selection, simplification, meshes, atlas, upload
     double record = 0.0;    ///< recording of commands
     /// From submission until its fence was seen signalled, by is_ready() or at the end of the wait
