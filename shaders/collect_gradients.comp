@@ -10,7 +10,7 @@
 layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
-    PointData points[];
+    TilePointData points[];
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
@@ -37,7 +37,7 @@ void main() {
         return;
     }
     uint corner = index & 3u;
-    PointData point = points[index / 4u];
+    TilePointData point = points[index / 4u];
     ivec2 low = ivec2(unpacked(point.cell));
     // After the feature and the four values.
     uint word = push.first_word + (index / 4u - push.origin) * push.words_per_point + 5u;

@@ -13,8 +13,8 @@ const uint count_step = 1u;
 const uint place_step = 2u;
 const uint write_step = 3u;
 
-// Points whose records one thread counts, one after the other. Fewer blocks than drivers allow turns
-// of a loop (see max_instance_steps) hold all that a search looks at.
+// Points whose records one thread counts, one after the other. Fewer blocks than drivers allow
+// turns of a loop (see max_instance_steps) hold all that a search looks at.
 const uint points_per_block = 64u;
 
 // What there is of such a block.

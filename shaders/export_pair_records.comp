@@ -12,7 +12,7 @@
 layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 3) writeonly buffer Records {
-    NearfieldRecord records[];
+    NearfieldPoint records[];
 };
 
 void main() {

@@ -56,7 +56,7 @@ void write_pair(uint row, uvec2 before) {
     pairs[before.x + row] = NearfieldPair(
         instance_unit(first.x, 3u).z, instance_unit(first.y, 3u).z, first.z & row_count_mask, flags,
         before.y + first.w, second.x, first_of_b, third.y,
-        has_deepest ? before.y + third.z : nearfield_no_record, depth);
+        has_deepest ? before.y + third.z : nearfield_no_point, depth);
 }
 
 void main() {

@@ -17,7 +17,7 @@ layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) buffer Records {
     NearfieldSummary summary;
-    NearfieldRecord records[];
+    NearfieldPoint records[];
 };
 layout(std430, set = 0, binding = 3) buffer Blocks {
     RecordBlockData blocks[];
@@ -67,10 +67,10 @@ void count_records(uint block, uint begin, uint end) {
 void place_blocks(uint count) {
     NearfieldSummary all = summary;
     if ((own_flags & nearfield_on_b_flag) == 0u) {
-        all = NearfieldSummary(0u, push.capacity, nearfield_no_record, 0.0);
+        all = NearfieldSummary(0u, push.capacity, nearfield_no_point, 0.0);
     }
     float unit = length(push.frame_axis);
-    float depth = all.deepest == nearfield_no_record ? -infinity : all.depth;
+    float depth = all.deepest == nearfield_no_point ? -infinity : all.depth;
     for (uint i = 0u; i < count; ++i) {
         RecordBlockData block = blocks[i];
         blocks[i].count = all.count;
@@ -85,7 +85,7 @@ void place_blocks(uint count) {
         all.count = max(all.count, 1u);
         all.capacity = 0u;
     }
-    all.depth = all.deepest == nearfield_no_record ? 0.0 : depth;
+    all.depth = all.deepest == nearfield_no_point ? 0.0 : depth;
     summary = all;
 }
 

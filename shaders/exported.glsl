@@ -51,7 +51,7 @@ vec2 normal_of_edge(Shape b, vec4 edge, vec2 point, float margin) {
 
 // `record`: direction, edge of A, sample on it, word. `frame`: B's in the world, a unit of its x axis
 // and its centre.
-NearfieldRecord exported(uvec4 record, vec4 frame, uint flags) {
+NearfieldPoint exported(uvec4 record, vec4 frame, uint flags) {
     SearchDirectionData direction = direction_at(record.x);
     Shape b = shape_at(direction.shape_b);
     mat2 to_world = mat2(frame.x, frame.y, -frame.y, frame.x);
@@ -70,6 +70,6 @@ NearfieldRecord exported(uvec4 record, vec4 frame, uint flags) {
     flags |= touches ? nearfield_touching_flag : 0u;
     flags |= (record.w & point_doubtful) != 0u ? nearfield_undecided_flag : 0u;
     float unit = length(frame.xy);
-    return NearfieldRecord(to_world * p + frame.zw, to_world * nearest + frame.zw,
+    return NearfieldPoint(to_world * p + frame.zw, to_world * nearest + frame.zw,
                            to_world * normal / unit, length(to_world * way), feature, record.y, flags);
 }

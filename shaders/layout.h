@@ -76,13 +76,13 @@ struct EdgeData {
 NEARFIELD_CHECK(sizeof(EdgeData) == 32)
 
 // A point whose depth is requested, or at which a field is reconstructed.
-struct PointData {
+struct TilePointData {
     vec2 position;
     uint tile NEARFIELD_DEFAULT(0);
     // Of a field: the low one of the four around, column | row << 16
     uint cell NEARFIELD_DEFAULT(0);
 };
-NEARFIELD_CHECK(sizeof(PointData) == 16)
+NEARFIELD_CHECK(sizeof(TilePointData) == 16)
 
 // A resolved point or cell, one word: B's nearest edge and flags. Zero: outside, not resolved.
 const uint point_inside = 1u << 31;

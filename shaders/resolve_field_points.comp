@@ -12,7 +12,7 @@
 layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
-    PointData points[];
+    TilePointData points[];
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
@@ -30,7 +30,7 @@ void main() {
     if (index >= push.end) {
         return;
     }
-    PointData point = points[index];
+    TilePointData point = points[index];
     TileData tile = tile_at(point.tile);
     ivec2 last = ivec2(tile.width, tile.height) - 1;
     ivec2 low = ivec2(unpacked(point.cell));

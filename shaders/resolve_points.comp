@@ -12,7 +12,7 @@
 layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
-    PointData points[];
+    TilePointData points[];
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Results {
     uint results[];
@@ -22,7 +22,7 @@ layout(set = 0, binding = 5) uniform usampler2D sign_image;
 
 layout(push_constant) uniform Push { ResolvePointsPush push; };
 
-uint resolve(PointData point) {
+uint resolve(TilePointData point) {
     TileData tile = tile_at(point.tile);
     vec2 p = point.position;
     ivec2 cell = clamp(ivec2(floor(p)), ivec2(0), ivec2(tile.width, tile.height) - 1);

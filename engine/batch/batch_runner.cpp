@@ -22,7 +22,7 @@ std::size_t place_of(const std::vector<Output>& all, std::uint32_t query) {
 /// The error of a query whose records do not all stay.
 Status no_room(const plan::RecordsOutput& records, std::uint32_t count) {
     const std::uint64_t bytes =
-        sizeof(SummaryData) + std::uint64_t{std::max(count, records.capacity)} * sizeof(RecordData);
+        sizeof(SummaryData) + std::uint64_t{std::max(count, records.capacity)} * sizeof(PointData);
     return {StatusCode::overflow,
             "query " + std::to_string(records.query) + " has " + std::to_string(count) +
                 " records, and what stays on the device has room for " +

@@ -98,7 +98,7 @@ double bytes_of_field(const DistanceFieldQuery& query, const FieldParts& parts, 
     const double words_of_points = parts.words_per_point * sizeof(std::uint32_t);
     const double points =
         static_cast<double>(query.points.size()) * (sizeof(FieldPoint) + sizeof(PlannedFieldPoint) +
-                                                    2.0 * sizeof(PointData) + words_of_points);
+                                                    2.0 * sizeof(TilePointData) + words_of_points);
     return points + result * grid.cells() + sizeof(Tile) * tiles +
            (words * sizeof(std::uint32_t) + signs) * drawn(grid.width) * drawn(grid.height);
 }

@@ -14,7 +14,7 @@ namespace nearfield::plan {
 struct FieldWork {
     std::vector<FieldTileData> tiles;
     /// Points at which fields are reconstructed; their tiles are among those above.
-    std::vector<PointData> points;
+    std::vector<TilePointData> points;
     // In all tiles together.
     std::uint32_t regions = 0;
     std::uint32_t quarters = 0;

@@ -91,7 +91,7 @@ struct RasterWork {
     std::array<std::vector<CellGroup>, group_lists> groups;
     std::array<std::vector<OverlapTile>, intersection_strategies> overlaps;  ///< by strategy
     std::vector<WatchedTile> watched;                                        ///< by occlusion query
-    std::vector<PointData> field_points;
+    std::vector<TilePointData> field_points;
 
     void clear();
 };
@@ -101,7 +101,7 @@ struct TileBatch {
     std::vector<TileData> tiles;
     std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
     EdgeListWriter lists;
-    std::vector<PointData> points;
+    std::vector<TilePointData> points;
     std::vector<std::uint32_t> point_index;  ///< by point: its position in Plan::points
     std::vector<EdgeRun> runs;       ///< of A's edges, which drawn offset polygons' ids refer to
     std::uint64_t listed_cells = 0;  ///< cells of all overlap tiles whose samples are listed

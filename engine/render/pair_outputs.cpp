@@ -85,10 +85,10 @@ PairsOnDevice PairOutputs::pairs() const {
     const bool is_exclusive = device_->reader_families().empty();
     PairsOnDevice pairs;
     pairs.pairs = {pairs_.handle(), bytes_of_pairs(pair_room_), pair_room_, {headers_.handle(), 0}};
-    pairs.records = {records_.handle(),
-                     bytes_of_records(record_room_),
-                     record_room_,
-                     {headers_.handle(), bytes_between_headers}};
+    pairs.points = {records_.handle(),
+                    bytes_of_records(record_room_),
+                    record_room_,
+                    {headers_.handle(), bytes_between_headers}};
     pairs.origin = geometry::to_public(origin_);
     pairs.state = {traits.stages, traits.access(), traits.layout,
                    is_exclusive ? device_->queue_family() : VK_QUEUE_FAMILY_IGNORED};

@@ -32,7 +32,7 @@ public:
         return count * sizeof(PairData);
     }
     [[nodiscard]] static std::uint64_t bytes_of_records(std::uint64_t count) {
-        return count * sizeof(RecordData);
+        return count * sizeof(PointData);
     }
     /// Makes room for what a search has room for.
     void reserve(std::uint32_t pairs, std::uint32_t records);

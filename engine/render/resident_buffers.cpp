@@ -12,7 +12,7 @@ namespace nearfield::render {
 namespace {
 
 std::uint64_t bytes_of_records(const plan::RecordsOutput& records) {
-    return sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(RecordData);
+    return sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(PointData);
 }
 
 std::uint64_t bytes_of_samples(const plan::SamplesOutput& samples) {

@@ -54,7 +54,7 @@ PointsOnDevice ResidentBuffers::records(std::size_t i) const {
     const plan::RecordsOutput& records = resident_->records[i];
     const gpu::BufferPart range = range_of(i, records);
     const std::uint64_t max_size =
-        sizeof(SummaryData) + std::uint64_t{records.max_capacity} * sizeof(RecordData);
+        sizeof(SummaryData) + std::uint64_t{records.max_capacity} * sizeof(PointData);
     return {range.buffer,          range.offset,
             range.bytes,           max_size,
             records.capacity,      geometry::to_public(records.origin),

@@ -167,7 +167,7 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan, std::uint32_t q
         std::visit([](const auto& asked) { return target_of(asked); }, *planned.query);
     if (target != nullptr) {
         records.target = *target;
-        const std::uint64_t fits = (target->size - sizeof(SummaryData)) / sizeof(RecordData);
+        const std::uint64_t fits = (target->size - sizeof(SummaryData)) / sizeof(PointData);
         room = static_cast<std::uint32_t>(std::min<std::uint64_t>(fits, UINT32_MAX));
     }
     records.capacity = std::min(room, records.max_capacity);

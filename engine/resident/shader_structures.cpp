@@ -50,13 +50,13 @@ NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, capacity);
 NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, deepest);
 NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, depth);
 
-NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, point);
-NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, nearest);
-NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, normal);
-NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, distance);
-NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, feature);
-NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, edge);
-NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, flags);
+NEARFIELD_SAME_MEMBER(PointData, NearfieldPoint, position);
+NEARFIELD_SAME_MEMBER(PointData, NearfieldPoint, nearest);
+NEARFIELD_SAME_MEMBER(PointData, NearfieldPoint, normal);
+NEARFIELD_SAME_MEMBER(PointData, NearfieldPoint, distance);
+NEARFIELD_SAME_MEMBER(PointData, NearfieldPoint, feature);
+NEARFIELD_SAME_MEMBER(PointData, NearfieldPoint, edge);
+NEARFIELD_SAME_MEMBER(PointData, NearfieldPoint, flags);
 
 NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, count);
 NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, capacity);
@@ -65,7 +65,7 @@ NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, cel
 NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, low);
 NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, high);
 
-NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, point);
+NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, position);
 NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, edge);
 NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, region);
 
@@ -95,7 +95,7 @@ NEARFIELD_SAME_CONSTANT(point_flags::undecided, nearfield_undecided_flag);
 NEARFIELD_SAME_CONSTANT(pair_flags::undecided, nearfield_undecided_flag);
 NEARFIELD_SAME_CONSTANT(pair_flags::uncertain, nearfield_uncertain_flag);
 NEARFIELD_SAME_CONSTANT(pair_flags::intersects, nearfield_intersects_flag);
-NEARFIELD_SAME_CONSTANT(no_point, nearfield_no_record);
+NEARFIELD_SAME_CONSTANT(no_point, nearfield_no_point);
 NEARFIELD_SAME_CONSTANT(no_edge, nearfield_no_edge);
 #undef NEARFIELD_SAME_CONSTANT
 

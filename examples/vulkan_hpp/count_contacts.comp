@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 0) readonly buffer Contacts {
     NearfieldSummary summary;
-    NearfieldRecord records[];
+    NearfieldPoint points[];
 };
 layout(std430, set = 0, binding = 1) buffer Counts {
     uint all;
@@ -20,7 +20,7 @@ void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index < summary.count) {
         atomicAdd(all, 1u);
-        if (nearfield_depth(records[index]) > 0.0) {
+        if (nearfield_depth(points[index]) > 0.0) {
             atomicAdd(inside, 1u);
         }
     }

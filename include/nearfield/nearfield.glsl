@@ -6,27 +6,27 @@
 #ifndef NEARFIELD_GLSL
 #define NEARFIELD_GLSL
 
-// A feature id, in a texel of the feature image and in a record: the nearest part of a boundary
+// A feature id, in a texel of the feature image and of a point: the nearest part of a boundary
 // (Feature in result.hpp) and flags.
 const uint nearfield_index_mask = 0x0fffffffu;   // index of the edge or vertex
 const uint nearfield_vertex_flag = 1u << 28;     // a vertex; otherwise an edge
 const uint nearfield_unique_flag = 1u << 30;     // no other part of the boundary is as near
 const uint nearfield_inside_flag = 1u << 31;     // the point lies inside the shape
 
-// NearfieldRecord::flags
+// NearfieldPoint::flags
 const uint nearfield_on_b_flag = 1u;        // of a batch: on B's boundary; otherwise on A's
 const uint nearfield_touching_flag = 2u;    // too near the boundary to tell inside from outside
 const uint nearfield_undecided_flag = 4u;   // something else may be as near; also of a NearfieldPair
 
-const uint nearfield_no_record = 0xffffffffu;
+const uint nearfield_no_point = 0xffffffffu;
 
-// What there is of a output on the device, and arguments that draw or dispatch as much (HeaderOnDevice in
+// What there is of an output on the device, and arguments that draw or dispatch as much (HeaderOnDevice in
 // on_device.hpp). Of a field: its cells.
 struct NearfieldHeader {
-    uvec4 points;    // VkDrawIndirectCommand: one vertex for each record, sample or cell
+    uvec4 points;    // VkDrawIndirectCommand: one vertex for each point, sample or cell
     uvec4 quads;     // VkDrawIndirectCommand: six vertices and one instance for each; a field: one
     uint groups[3];  // VkDispatchIndirectCommand: 64 threads, one for each; a field: 8 x 8
-    uint count;      // stored records, samples or cells
+    uint count;      // stored points, samples or cells
     vec2 origin;     // of the positions, or the low corner of a field's first cell
     float cell;      // side of a cell
     uint overflow;   // 1: more were found than there is space for; otherwise 0
@@ -35,20 +35,20 @@ struct NearfieldHeader {
 };
 
 struct NearfieldSummary {
-    uint count;     // number of records that were found; more than the capacity are not stored
-    uint capacity;  // reserved number of records; 0 if the search itself had no room
-    uint deepest;   // the record of the greatest depth; nearfield_no_record if there is none
+    uint count;     // number of points that were found; more than the capacity are not stored
+    uint capacity;  // reserved number of points; 0 if the search itself had no room
+    uint deepest;   // the point of the greatest depth; nearfield_no_point if there is none
     float depth;    // its depth: distance to the boundary inside, negative outside
 };
 
 // Of a query of a batch, behind a NearfieldSummary; or of the pairs of a world.
-struct NearfieldRecord {
-    vec2 point;      // on the boundary of the one shape; relative to the origin
+struct NearfieldPoint {
+    vec2 position;   // on the boundary of the one shape; relative to the origin
     vec2 nearest;    // nearest point of the other shape's boundary; relative to the origin
     vec2 normal;     // unit: out of the other shape; with nearfield_touching_flag that of the edge
-    float distance;  // from `point` to `nearest`
+    float distance;  // from `position` to `nearest`
     uint feature;    // id of the edge that `nearest` lies on
-    uint edge;       // that `point` lies on
+    uint edge;       // that `position` lies on
     uint flags;
 };
 
@@ -65,26 +65,26 @@ struct NearfieldIntersectionSummary {
 };
 
 struct NearfieldIntersectionSample {
-    vec2 point;   // the centre of a cell, relative to the origin
+    vec2 position;  // the centre of a cell, relative to the origin
     uint edge;    // of A, nearby; nearfield_no_edge if A takes part by its volume
     uint region;  // the region that the cell belongs to
 };
 
 // NearfieldPair::flags; with nearfield_undecided_flag it is open whether the pair is hit
-const uint nearfield_uncertain_flag = 8u;    // it is, but count and deepest record are not certain
+const uint nearfield_uncertain_flag = 8u;    // it is, but count and deepest point are not certain
 const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
 
 // A pair of instances that is hit, or may be (PairsOnDevice in pairs_on_device.hpp).
 struct NearfieldPair {
     uint a;             // indices of the instances' handles
     uint b;
-    uint count;         // of the records, those that count for certain
+    uint count;         // of the points, those that count for certain
     uint flags;
-    uint first_point;  // consecutive records, of points of A's boundary
+    uint first_point;  // consecutive points, of A's boundary
     uint point_count;
     uint first_of_b;    // contacts: those of points of B's boundary
     uint count_of_b;
-    uint deepest;       // penetrations: the record of the greatest depth, or nearfield_no_record
+    uint deepest;       // penetrations: the point of the greatest depth, or nearfield_no_point
     float depth;        // its depth
 };
 
@@ -103,9 +103,9 @@ bool nearfield_is_inside(uint feature) {
     return (feature & nearfield_inside_flag) != 0u;
 }
 
-// Depth of a record: its distance inside the other shape, negative outside.
-float nearfield_depth(NearfieldRecord record) {
-    return nearfield_is_inside(record.feature) ? record.distance : -record.distance;
+// Depth of a point: its distance inside the other shape, negative outside.
+float nearfield_depth(NearfieldPoint found) {
+    return nearfield_is_inside(found.feature) ? found.distance : -found.distance;
 }
 
 // Position in a field's images, in texels: texel centres are at halves. `place` and `origin` in the

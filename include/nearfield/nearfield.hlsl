@@ -2,22 +2,22 @@
 // in nearfield.glsl, which describes them in full.
 //
 // Declare buffers as StructuredBuffer or ByteAddressBuffer at the offset that on_device.hpp states: a
-// summary, followed by records or samples.
+// summary, followed by points or samples.
 #ifndef NEARFIELD_HLSL
 #define NEARFIELD_HLSL
 
-// A feature id, in a texel of the feature image and in a record.
+// A feature id, in a texel of the feature image and of a point.
 static const uint nearfield_index_mask = 0x0fffffffu;  // index of the edge or vertex
 static const uint nearfield_vertex_flag = 1u << 28;    // a vertex; otherwise an edge
 static const uint nearfield_unique_flag = 1u << 30;    // no other part of the boundary is as near
 static const uint nearfield_inside_flag = 1u << 31;    // the point lies inside the shape
 
-// NearfieldRecord::flags
+// NearfieldPoint::flags
 static const uint nearfield_on_b_flag = 1u;       // of a batch: on B's boundary; otherwise on A's
 static const uint nearfield_touching_flag = 2u;   // too near to tell inside from outside
 static const uint nearfield_undecided_flag = 4u;  // something else may be as near; also of a pair
 
-static const uint nearfield_no_record = 0xffffffffu;
+static const uint nearfield_no_point = 0xffffffffu;
 static const uint nearfield_no_edge = 0xffffffffu;
 
 struct NearfieldHeader {
@@ -35,12 +35,12 @@ struct NearfieldHeader {
 struct NearfieldSummary {
     uint count;
     uint capacity;
-    uint deepest;  // nearfield_no_record if there is none
+    uint deepest;  // nearfield_no_point if there is none
     float depth;
 };
 
-struct NearfieldRecord {
-    float2 position;  // `point` in GLSL, a word of HLSL
+struct NearfieldPoint {
+    float2 position;
     float2 nearest;
     float2 normal;
     float distance;
@@ -59,13 +59,13 @@ struct NearfieldIntersectionSummary {
 };
 
 struct NearfieldIntersectionSample {
-    float2 position;  // `point` in GLSL, a word of HLSL
+    float2 position;
     uint edge;        // nearfield_no_edge if A takes part by its volume
     uint region;
 };
 
 // NearfieldPair::flags; with nearfield_undecided_flag it is open whether it is hit
-static const uint nearfield_uncertain_flag = 8u;    // count and deepest record are not certain
+static const uint nearfield_uncertain_flag = 8u;    // count and deepest point are not certain
 static const uint nearfield_intersects_flag = 16u;  // contacts: the shapes intersect for certain
 
 struct NearfieldPair {
@@ -77,7 +77,7 @@ struct NearfieldPair {
     uint point_count;
     uint first_of_b;
     uint count_of_b;
-    uint deepest;  // nearfield_no_record if there is none
+    uint deepest;  // nearfield_no_point if there is none
     float depth;
 };
 
@@ -96,9 +96,9 @@ bool nearfield_is_inside(uint feature) {
     return (feature & nearfield_inside_flag) != 0u;
 }
 
-// Depth of a record: its distance inside the other shape, negative outside.
-float nearfield_depth(NearfieldRecord record) {
-    return nearfield_is_inside(record.feature) ? record.distance : -record.distance;
+// Depth of a point: its distance inside the other shape, negative outside.
+float nearfield_depth(NearfieldPoint found) {
+    return nearfield_is_inside(found.feature) ? found.distance : -found.distance;
 }
 
 // Position in a field's images, in texels: texel centres are at halves. `place` and `origin` in the

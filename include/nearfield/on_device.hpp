@@ -25,7 +25,7 @@
 
 namespace nearfield {
 
-/// The synchronisation state in which the host's commands find a output on the device.
+/// The synchronisation state in which the host's commands find an output on the device.
 struct OutputState {
     /// Vertex, fragment and compute shader; for buffers also vertex input and indirect commands.
     /// Only stages that the host's queue family has.
@@ -94,7 +94,7 @@ struct FieldTarget {
 /// Where points on the device or samples go (PenetrationQuery::target and others): a range of a
 /// buffer of the host's, on the context's device. Only as much is written as on_device() states.
 /// The header stays nearfield's own; it and the query's result (StatusCode::overflow) tell of more
-/// records than there is space for. Borrowed until the batch is collected; nothing is kept of it.
+/// points than there is space for. Borrowed until the batch is collected; nothing is kept of it.
 struct BufferTarget {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< not null
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
@@ -104,7 +104,7 @@ struct BufferTarget {
     TargetState after = read_by_shaders;  ///< its layout is ignored
 };
 
-/// Where the header of a output on the device lies (HeaderData): what there is, for shaders, and
+/// Where the header of an output on the device lies (HeaderData): what there is, for shaders, and
 /// the arguments of vkCmdDrawIndirect and vkCmdDispatchIndirect, written by the device. The buffer
 /// may be bound as a storage, indirect or vertex buffer, and copied from. Its state is the one that
 /// OutputState describes for buffers, also where the output itself goes to the host's buffer.
@@ -163,9 +163,9 @@ struct FieldOnDevice {
     OutputSlot slot;        ///< for hosts that keep their descriptor sets
 };
 
-/// The records of a penetration or contact query (PenetrationQuery::on_device,
-/// ContactQuery::on_device): a buffer range with a SummaryData, then space for `capacity` records
-/// (RecordData); the summary has their number. The buffer may be bound as a storage buffer at this
+/// The points of a penetration or contact query (PenetrationQuery::on_device,
+/// ContactQuery::on_device): a buffer range with a SummaryData, then space for `capacity` points
+/// (PointData); the summary has their number. The buffer may be bound as a storage buffer at this
 /// offset, or as a vertex or indirect buffer, and copied from.
 ///
 /// Records are in the order of their points: along A's rings, then, for contacts, along B's. The
@@ -173,12 +173,12 @@ struct FieldOnDevice {
 /// holds, the header says so (HeaderData::overflow), the result has StatusCode::overflow beside all
 /// its other values, and the next batch has space for as many.
 ///
-/// Each record is the single-precision version of the record that the CPU computes for the same
-/// point (PenetratingPoint, ContactPoint), except the normal of a contact of B's boundary, which
-/// points out of A. It names the edge that the nearest point lies on, never a vertex; if another
-/// edge is as near up to `error_bound`, it names either (point_flags::undecided).
+/// Each is the single-precision version of the PenetratingPoint or ContactPoint that the CPU
+/// computes, except the normal of a contact of B's boundary, which points out of A. It names the
+/// edge that the nearest point lies on, never a vertex; if another edge is as near up to
+/// `error_bound`, it names either (point_flags::undecided).
 ///
-/// A record may exist on one side only if the point's distance differs from the contact distance by
+/// A point may be listed on one side only if its distance differs from the contact distance by
 /// at most `error_bound`, if the point is so close to the boundary that it counts as touching
 /// (point_flags::touching), or if a search took too long (point_flags::undecided).
 struct PointsOnDevice {
@@ -189,15 +189,15 @@ struct PointsOnDevice {
     /// boundaries that it examines (of penetration A's, of contacts A's and B's). A buffer of the
     /// host's that large is never too small, until the rings of a shape are replaced.
     VkDeviceSize max_size = 0;
-    std::uint32_t capacity = 0;  ///< maximum number of records
+    std::uint32_t capacity = 0;  ///< maximum number of points
     Vector2 origin;              ///< of all positions, world coordinates
-    /// Error bound of every coordinate, distance and depth of the records and the summary, world
+    /// Error bound of every coordinate, distance and depth of the points and the summary, world
     /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
-    /// is larger, where the record is neither touching nor undecided.
+    /// is larger, where the point is neither touching nor undecided.
     double error_bound = 0.0;
     OutputState
         state;  ///< once the device has executed the batch; or as the target's `after` states
-    HeaderOnDevice header;  ///< of the records
+    HeaderOnDevice header;  ///< of the points
     OutputSlot slot;        ///< for hosts that keep their descriptor sets
 };
 
@@ -258,11 +258,11 @@ namespace feature_bits {
 inline constexpr std::uint32_t index_mask = 0x0fffffff;  ///< index of the edge or vertex
 inline constexpr std::uint32_t vertex = 1U << 28U;       ///< set: a vertex; clear: an edge
 inline constexpr std::uint32_t unique = 1U << 30U;       ///< as PenetratingPoint::unique
-/// The point lies inside the shape; the point of a record, deeper than d/1024.
+/// The point lies inside the shape; of PointData: deeper than d/1024.
 inline constexpr std::uint32_t inside = 1U << 31U;
 }  // namespace feature_bits
 
-/// The bits of RecordData::flags.
+/// The bits of PointData::flags.
 namespace point_flags {
 /// Of a batch: a contact of B's boundary, whose nearest point and feature are on A.
 inline constexpr std::uint32_t on_b = 1;
@@ -275,37 +275,37 @@ inline constexpr std::uint32_t touching = 2;
 inline constexpr std::uint32_t undecided = 4;
 }  // namespace point_flags
 
-/// SummaryData::deepest if there is no record.
+/// SummaryData::deepest if there is no point.
 inline constexpr std::uint32_t no_point = UINT32_MAX;
 
 /// NearfieldSummary of the GLSL header (std430).
 struct SummaryData {
-    std::uint32_t count = 0;  ///< number of records found; a lower bound if the capacity is 0
+    std::uint32_t count = 0;  ///< number of points found; a lower bound if the capacity is 0
     /// As PointsOnDevice::capacity; 0 if the memory of the search was too small, so that nothing is
     /// stored.
     std::uint32_t capacity = 0;
-    std::uint32_t deepest = no_point;  ///< index of the first record of the greatest depth
+    std::uint32_t deepest = no_point;  ///< index of the first point of the greatest depth
     float depth = 0.0F;  ///< its depth: distance inside the other shape, negative outside
 };
 static_assert(sizeof(SummaryData) == 16 && offsetof(SummaryData, deepest) == 8);
 
-/// NearfieldRecord of the GLSL header (std430): a point of one shape's boundary and what is nearest
+/// NearfieldPoint of the GLSL header (std430): a point of one shape's boundary and what is nearest
 /// to it of the other's. Positions are relative to PointsOnDevice::origin or
 /// PairsOnDevice::origin.
-struct RecordData {
-    float point[2]{};    ///< on the boundary of the one shape
-    float nearest[2]{};  ///< the nearest point of the other's boundary
+struct PointData {
+    float position[2]{};  ///< on the boundary of the one shape
+    float nearest[2]{};   ///< the nearest point of the other's boundary
     /// Unit vector that points out of the other shape; see point_flags::touching.
     float normal[2]{};
-    float distance = 0.0F;  ///< from `point` to `nearest`, world units, >= 0
+    float distance = 0.0F;  ///< from `position` to `nearest`, world units, >= 0
     /// The edge that `nearest` lies on, with feature_bits::unique and inside; never a vertex.
     std::uint32_t feature = 0;
-    std::uint32_t edge = 0;   ///< that `point` lies on
+    std::uint32_t edge = 0;   ///< that `position` lies on
     std::uint32_t flags = 0;  ///< point_flags
 };
-static_assert(sizeof(RecordData) == 40 && offsetof(RecordData, nearest) == 8 &&
-              offsetof(RecordData, normal) == 16 && offsetof(RecordData, distance) == 24 &&
-              offsetof(RecordData, feature) == 28 && offsetof(RecordData, edge) == 32);
+static_assert(sizeof(PointData) == 40 && offsetof(PointData, nearest) == 8 &&
+              offsetof(PointData, normal) == 16 && offsetof(PointData, distance) == 24 &&
+              offsetof(PointData, feature) == 28 && offsetof(PointData, edge) == 32);
 
 /// IntersectionSampleData::edge if the query uses A's volume.
 inline constexpr std::uint32_t no_edge = UINT32_MAX;
@@ -328,7 +328,7 @@ static_assert(sizeof(IntersectionSummaryData) == 32 &&
 /// NearfieldIntersectionSample of the GLSL header (std430). Positions are relative to
 /// SamplesOnDevice::origin.
 struct IntersectionSampleData {
-    float point[2]{};              ///< the centre of a cell
+    float position[2]{};           ///< the centre of a cell
     std::uint32_t edge = no_edge;  ///< an edge of A nearby, if the query uses A's boundary
     std::uint32_t region = 0;      ///< index of the cell's region in ResultSummary::regions
 };

@@ -21,7 +21,7 @@ struct ArrayOnDevice {
     VkDeviceSize size = 0;             ///< of the array, in bytes
     std::uint32_t capacity = 0;        ///< maximum number of elements
     /// The number of elements. `overflow` is 1 if the memory was too small for the pairs, so that
-    /// rows and records are missing. PairTable::collect() then grows the memory and searches again;
+    /// rows and points are missing. PairTable::collect() then grows the memory and searches again;
     /// for recorded commands the next World::record() grows it.
     HeaderOnDevice header;
 };
@@ -41,14 +41,14 @@ struct ArrayOnDevice {
 /// the largest world coordinate, the origin's included. The lengths are both shapes' radii around
 /// their centres, the distance of these centres, and that of the pair from the origin; if the poses
 /// are the host's (DevicePoses), also the distances of the centres from the shapes' own (0, 0). The
-/// error of a normal is at most twice this divided by the distance, where the record is neither
+/// error of a normal is at most twice this divided by the distance, where the point is neither
 /// touching nor undecided.
 ///
-/// Where pairs of contacts are searched in parts (PairTable), a point may have two equal
-/// records, of which a pair names one.
+/// Where pairs of contacts are searched in parts (PairTable), a point may be listed twice; a pair
+/// names one.
 struct PairsOnDevice {
     ArrayOnDevice pairs;         ///< of PairData
-    ArrayOnDevice records;       ///< of RecordData
+    ArrayOnDevice points;        ///< of PointData
     Vector2 origin;              ///< of all positions, world coordinates
     OutputState state;           ///< once the device has executed the search
     std::uint64_t revision = 0;  ///< changes whenever a handle or a size does
@@ -58,7 +58,7 @@ struct PairsOnDevice {
 namespace pair_flags {
 /// It is not certain that the pair is hit.
 inline constexpr std::uint32_t undecided = 4;
-/// The pair is certainly hit; its count and deepest record are not certain.
+/// The pair is certainly hit; its count and deepest point are not certain.
 inline constexpr std::uint32_t uncertain = 8;
 /// Contacts: the shapes certainly intersect.
 inline constexpr std::uint32_t intersects = 16;
@@ -68,16 +68,16 @@ inline constexpr std::uint32_t intersects = 16;
 struct PairData {
     std::uint32_t a = 0;      ///< index of the instance's handle (InstanceHandle::index)
     std::uint32_t b = 0;      ///< index of the other instance's handle
-    std::uint32_t count = 0;  ///< the number of records that certainly count
+    std::uint32_t count = 0;  ///< the number of points that certainly count
     std::uint32_t flags = 0;  ///< pair_flags
-    /// Consecutive records, of points of A's boundary. Penetrations: those without
+    /// Consecutive points, of A's boundary. Penetrations: those without
     /// feature_bits::inside do not count. Contacts: those farther than the contact distance do
     /// not.
     std::uint32_t first_point = 0;
-    std::uint32_t point_count = 0;  ///< the number of these records
+    std::uint32_t point_count = 0;  ///< the number of these points
     std::uint32_t first_of_b = 0;   ///< contacts: those of points of B's boundary
-    std::uint32_t count_of_b = 0;   ///< the number of these records
-    /// Penetrations: the record of the greatest depth; no_point where it is not certain that there
+    std::uint32_t count_of_b = 0;   ///< the number of these points
+    /// Penetrations: the point of the greatest depth; no_point where it is not certain that there
     /// is one.
     std::uint32_t deepest = no_point;
     float depth = 0.0F;  ///< its depth

@@ -117,7 +117,7 @@ Found read(HostGpu& gpu, const FieldOnDevice& field, const PointsOnDevice& recor
     found.features = gpu.read(field.feature, extent, field.state);
     found.contacts = gpu.read(records.buffer, records.offset, records.size, records.state);
     const std::uint64_t bytes =
-        sizeof(SummaryData) + found.contacts.front() * std::uint64_t{sizeof(RecordData)};
+        sizeof(SummaryData) + found.contacts.front() * std::uint64_t{sizeof(PointData)};
     EXPECT_GT(found.contacts.front(), 10U);
     found.contacts.resize(bytes / sizeof(std::uint32_t));
     return found;

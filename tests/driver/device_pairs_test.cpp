@@ -75,7 +75,7 @@ public:
         if (!are_resident()) {
             return;
         }
-        for (const ArrayOnDevice& array : {resident->pairs, resident->records}) {
+        for (const ArrayOnDevice& array : {resident->pairs, resident->points}) {
             EXPECT_TRUE(driver().has_memory(array.buffer, 0, array.size));
             EXPECT_TRUE(
                 driver().has_memory(array.header.buffer, array.header.offset, sizeof(HeaderData)));

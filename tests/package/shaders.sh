@@ -11,14 +11,15 @@ cat >"$work/reads.comp" <<'END'
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer B0 { NearfieldHeader headers[]; };
 layout(std430, binding = 1) readonly buffer B1 { NearfieldSummary summaries[]; };
-layout(std430, binding = 2) readonly buffer B2 { NearfieldRecord records[]; };
+layout(std430, binding = 2) readonly buffer B2 { NearfieldPoint points[]; };
 layout(std430, binding = 3) readonly buffer B3 { NearfieldIntersectionSummary overlaps[]; };
 layout(std430, binding = 4) readonly buffer B4 { NearfieldIntersectionSample samples[]; };
-layout(std430, binding = 5) writeonly buffer B5 { float sums[]; };
+layout(std430, binding = 5) readonly buffer B5 { NearfieldPair pairs[]; };
+layout(std430, binding = 6) writeonly buffer B6 { float sums[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    sums[i] = nearfield_depth(records[i]) + summaries[0].depth + overlaps[0].area +
-              samples[i].point.x + float(headers[0].count);
+    sums[i] = nearfield_depth(points[i]) + summaries[0].depth + overlaps[0].area +
+              samples[i].position.x + pairs[i].depth + float(headers[0].count);
 }
 END
 cat >"$work/apart.frag" <<'END'
@@ -39,17 +40,18 @@ cat >"$work/reads.hlsl" <<'END'
 #include "nearfield/nearfield.hlsl"
 StructuredBuffer<NearfieldHeader> headers : register(t0);
 StructuredBuffer<NearfieldSummary> summaries : register(t1);
-StructuredBuffer<NearfieldRecord> records : register(t2);
+StructuredBuffer<NearfieldPoint> points : register(t2);
 StructuredBuffer<NearfieldIntersectionSummary> overlaps : register(t3);
 StructuredBuffer<NearfieldIntersectionSample> samples : register(t4);
-RWStructuredBuffer<float> sums : register(u5);
-Texture2D<float> field : register(t6);
+StructuredBuffer<NearfieldPair> pairs : register(t5);
+RWStructuredBuffer<float> sums : register(u6);
+Texture2D<float> field : register(t7);
 [numthreads(64, 1, 1)]
 void main(uint3 id : SV_DispatchThreadID) {
-    sums[id.x] = nearfield_depth(records[id.x]) + summaries[0].depth + overlaps[0].area +
-                 samples[id.x].position.x + float(headers[0].count) +
+    sums[id.x] = nearfield_depth(points[id.x]) + summaries[0].depth + overlaps[0].area +
+                 samples[id.x].position.x + pairs[id.x].depth + float(headers[0].count) +
                  nearfield_signed_distance(field, int2(64, 64),
-                                           nearfield_texel(records[id.x].position, 0.0, 0.5));
+                                           nearfield_texel(points[id.x].position, 0.0, 0.5));
 }
 END
 
@@ -67,6 +69,6 @@ layout_of() {
 
 glsl=$(layout_of reads.comp)
 hlsl=$(layout_of reads.hlsl -D -S comp -e main)
-[[ $(wc -l <<<"$glsl") == 31 ]] || fail "GLSL has other members: $glsl"
+[[ $(wc -l <<<"$glsl") == 39 ]] || fail "GLSL has other members: $glsl"
 [[ $glsl == "$hlsl" ]] || fail "the layouts differ: $(diff <(echo "$glsl") <(echo "$hlsl"))"
 printf '%s members\n' "$(wc -l <<<"$glsl")"

@@ -18,12 +18,12 @@ protected:
     /// What stays on the device: as many of each as the headers say.
     struct Residents {
         std::vector<PairData> pairs;
-        std::vector<RecordData> records;
+        std::vector<PointData> records;
     };
     Residents read(const PairsOnDevice& resident) {
         Residents all;
         read(resident.pairs, resident.state, all.pairs);
-        read(resident.records, resident.state, all.records);
+        read(resident.points, resident.state, all.records);
         return all;
     }
 
@@ -44,8 +44,8 @@ private:
 
 /// Where two edges are as near, either may be the nearest: points that are searched together
 /// differ.
-bool are_alike(const RecordData& a, const RecordData& b) {
-    return a.point[0] == b.point[0] && a.point[1] == b.point[1] && a.edge == b.edge &&
+bool are_alike(const PointData& a, const PointData& b) {
+    return a.position[0] == b.position[0] && a.position[1] == b.position[1] && a.edge == b.edge &&
            std::abs(a.distance - b.distance) < 1e-6F;
 }
 

@@ -72,7 +72,7 @@ protected:
             gpu().vkCmdCopyBuffer(commands, from, target, 1, &region);
             offset += bytes;
         };
-        for (const ArrayOnDevice& array : {pairs.pairs, pairs.records}) {
+        for (const ArrayOnDevice& array : {pairs.pairs, pairs.points}) {
             copy(array.header.buffer, array.header.offset, header_bytes);
             copy(array.buffer, 0, array.size);
         }
@@ -80,7 +80,7 @@ protected:
                 VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_HOST_READ_BIT);
     }
     [[nodiscard]] HostGpu::Buffer make_copy(const PairsOnDevice& pairs) {
-        return gpu().make_buffer(2 * header_bytes + pairs.pairs.size + pairs.records.size);
+        return gpu().make_buffer(2 * header_bytes + pairs.pairs.size + pairs.points.size);
     }
     /// Headers, and as many pairs and records as they say.
     static std::vector<std::uint32_t> words_of(const HostGpu::Buffer& copy,
@@ -98,7 +98,7 @@ protected:
             data += header_bytes + bytes;
         };
         add(sizeof(PairData), pairs.pairs.size);
-        add(sizeof(RecordData), pairs.records.size);
+        add(sizeof(PointData), pairs.points.size);
         return words;
     }
     std::vector<std::uint32_t> read_residents(const PairsOnDevice& pairs) {

@@ -22,7 +22,7 @@ protected:
         HeaderData pair_header;
         HeaderData record_header;
         std::vector<PairData> pairs;
-        std::vector<RecordData> records;
+        std::vector<PointData> records;
     };
 
     template <class Data>
@@ -41,11 +41,11 @@ protected:
         };
         Read all;
         all.pair_header = header_of(pairs.pairs);
-        all.record_header = header_of(pairs.records);
+        all.record_header = header_of(pairs.points);
         EXPECT_LE(all.pair_header.count, pairs.pairs.capacity);
-        EXPECT_LE(all.record_header.count, pairs.records.capacity);
+        EXPECT_LE(all.record_header.count, pairs.points.capacity);
         EXPECT_EQ(pairs.pairs.size, pairs.pairs.capacity * sizeof(PairData));
-        EXPECT_EQ(pairs.records.size, pairs.records.capacity * sizeof(RecordData));
+        EXPECT_EQ(pairs.points.size, pairs.points.capacity * sizeof(PointData));
         for (const HeaderData& header : {all.pair_header, all.record_header}) {
             EXPECT_EQ(header.points.vertexCount, header.count);
             EXPECT_EQ(header.points.instanceCount, 1U);
@@ -57,8 +57,7 @@ protected:
             EXPECT_EQ(header.origin[1], static_cast<float>(pairs.origin.y));
         }
         all.pairs = read<PairData>(pairs.pairs.buffer, 0, all.pair_header.count, pairs.state);
-        all.records =
-            read<RecordData>(pairs.records.buffer, 0, all.record_header.count, pairs.state);
+        all.records = read<PointData>(pairs.points.buffer, 0, all.record_header.count, pairs.state);
         return all;
     }
 
@@ -67,12 +66,12 @@ protected:
     static constexpr double near = 40.0 * 0x1p-17;
 
     /// Of the records of a row, that of a point; null if there is none.
-    static const RecordData* find(const Read& all, std::uint32_t first, std::uint32_t count,
-                                  const Vector2& origin, const Vector2& point) {
+    static const PointData* find(const Read& all, std::uint32_t first, std::uint32_t count,
+                                 const Vector2& origin, const Vector2& point) {
         for (std::uint32_t i = first; i < first + count; ++i) {
-            const RecordData& one = all.records[i];
-            if (std::hypot(origin.x + static_cast<double>(one.point[0]) - point.x,
-                           origin.y + static_cast<double>(one.point[1]) - point.y) <= near) {
+            const PointData& one = all.records[i];
+            if (std::hypot(origin.x + static_cast<double>(one.position[0]) - point.x,
+                           origin.y + static_cast<double>(one.position[1]) - point.y) <= near) {
                 return &one;
             }
         }
@@ -80,7 +79,7 @@ protected:
     }
 
     /// `direction`: out of the other shape.
-    void expect_equal(const RecordData& found, const Vector2& nearest, const Vector2& direction,
+    void expect_equal(const PointData& found, const Vector2& nearest, const Vector2& direction,
                       double distance, bool unique, const Vector2& origin) {
         EXPECT_NEAR(static_cast<double>(found.distance), distance, near);
         if (unique && (found.feature & feature_bits::unique) != 0) {
@@ -154,7 +153,7 @@ protected:
             if constexpr (std::is_same_v<Query, ContactQuery>) {
                 is_of_b = one.on == Side::b;
             }
-            const RecordData* const found =
+            const PointData* const found =
                 is_of_b ? find(all, pair.first_of_b, pair.count_of_b, origin, one.position)
                         : find(all, pair.first_point, pair.point_count, origin, one.position);
             ASSERT_NE(found, nullptr) << one.position.x << " " << one.position.y;

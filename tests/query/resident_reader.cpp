@@ -29,11 +29,11 @@ Structure structure_at(const std::vector<std::uint32_t>& words, std::size_t byte
     return structure;
 }
 
-RecordContents taken_apart(const RecordData& record, const Vector2& origin) {
+RecordContents taken_apart(const PointData& record, const Vector2& origin) {
     RecordContents contents;
     static_cast<FeatureContents&>(contents) = taken_apart(record.feature);
-    contents.own_point = {record.point[0], record.point[1]};
-    contents.point = in_world(record.point, origin);
+    contents.own_point = {record.position[0], record.position[1]};
+    contents.point = in_world(record.position, origin);
     contents.nearest = in_world(record.nearest, origin);
     contents.normal = {record.normal[0], record.normal[1]};
     contents.distance = record.distance;
@@ -65,9 +65,9 @@ RecordsContents ResidentReader::read(const PointsOnDevice& records) {
     RecordsContents contents;
     contents.summary = structure_at<SummaryData>(words, 0);
     for (std::uint32_t i = 0; i < contents.summary.count && i < records.capacity; ++i) {
-        contents.records.push_back(taken_apart(
-            structure_at<RecordData>(words, sizeof(SummaryData) + i * sizeof(RecordData)),
-            records.origin));
+        contents.records.push_back(
+            taken_apart(structure_at<PointData>(words, sizeof(SummaryData) + i * sizeof(PointData)),
+                        records.origin));
     }
     return contents;
 }
@@ -85,8 +85,8 @@ SamplesContents ResidentReader::read(const SamplesOnDevice& samples) {
     for (std::uint32_t i = 0; i < contents.summary.count && i < samples.capacity; ++i) {
         const auto sample = structure_at<IntersectionSampleData>(
             words, sizeof(IntersectionSummaryData) + i * sizeof(IntersectionSampleData));
-        contents.samples.push_back({{sample.point[0], sample.point[1]},
-                                    in_world(sample.point, samples.origin),
+        contents.samples.push_back({{sample.position[0], sample.position[1]},
+                                    in_world(sample.position, samples.origin),
                                     sample.edge,
                                     sample.region});
     }

@@ -170,7 +170,7 @@ TEST_F(TargetRefusals, OfBuffers) {
 
 TEST_F(TargetRefusals, ATooSmallBufferIsToldInTheResultOfItsQueryAlone) {
     BufferTarget small = buffer_;
-    small.size = sizeof(SummaryData) + 10 * sizeof(RecordData);
+    small.size = sizeof(SummaryData) + 10 * sizeof(PointData);
     PenetrationQuery query = depths();
     const PenetrationResult alone = run_alone(context(), query);
     ASSERT_GT(alone.count, 10U);

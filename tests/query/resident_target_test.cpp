@@ -235,8 +235,8 @@ TEST_F(ResidentTarget, RecordsAndSamplesEqualThoseInTheOwnBuffer) {
     IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
     IntersectionQuery edges = pair.intersection(IntersectionKind::boundary_volume);
     depths.on_device = contacts.on_device = overlap.on_device = edges.on_device = true;
-    expect_same_in_buffer(depths, sizeof(RecordData) / 4);
-    expect_same_in_buffer(contacts, sizeof(RecordData) / 4);
+    expect_same_in_buffer(depths, sizeof(PointData) / 4);
+    expect_same_in_buffer(contacts, sizeof(PointData) / 4);
     expect_same_in_buffer(overlap, sizeof(IntersectionSampleData) / 4);
     expect_same_in_buffer(edges, sizeof(IntersectionSampleData) / 4);
 }

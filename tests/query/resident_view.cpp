@@ -193,7 +193,7 @@ VkPipeline ResidentView::make_pipeline(std::span<const std::uint32_t> vertex,
     const VkVertexInputBindingDescription samples_input{0, sizeof(IntersectionSampleData),
                                                         VK_VERTEX_INPUT_RATE_INSTANCE};
     const VkVertexInputAttributeDescription place{0, 0, VK_FORMAT_R32G32_SFLOAT,
-                                                  offsetof(IntersectionSampleData, point)};
+                                                  offsetof(IntersectionSampleData, position)};
     if (per_sample) {
         input.vertexBindingDescriptionCount = input.vertexAttributeDescriptionCount = 1;
         input.pVertexBindingDescriptions = &samples_input;

@@ -216,7 +216,7 @@ TEST_F(Strategies, MixInOneBatch) {
         const PlacedPair& placed = pairs.emplace_back(*context_, std::move(pair));
         IntersectionQuery query = placed.intersection(every_kind[handles.size() % 3]);
         query.strategy = every_strategy[(handles.size() / 3) % 4];
-        query.summary_only = !handles.size() % 2 == 0;
+        query.summary_only = handles.size() % 2 != 0;
         query.technique = handles.size() % 5 < 2 ? Technique::compute : Technique::raster;
         handles.push_back(batch.add(query));
         batch.add(placed.penetration());

@@ -9,7 +9,7 @@
 
 layout(std430, set = 0, binding = 2) readonly buffer Contacts {
     NearfieldSummary summary;
-    NearfieldRecord records[];
+    NearfieldPoint records[];
 };
 
 layout(location = 0) flat out uint inside;
@@ -26,12 +26,12 @@ void main() {
     if (index >= summary.count) {
         return;
     }
-    NearfieldRecord record = records[index];
+    NearfieldPoint record = records[index];
     inside = nearfield_is_inside(record.feature) ? 1u : 0u;
     vec2 corner = view.arrow_length * corners[gl_VertexIndex];
     // Out of B, as nearly as a point of its boundary tells it.
     vec2 along = (record.flags & nearfield_on_b_flag) != 0u ? -record.normal : record.normal;
     vec2 across = vec2(-along.y, along.x);
-    vec2 place = record.point + corner.x * along + corner.y * across;
+    vec2 place = record.position + corner.x * along + corner.y * across;
     gl_Position = in_picture(place - view.records_low);
 }
