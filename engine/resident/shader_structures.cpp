@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-// The structures and constants of resident.hpp are those of nearfield.glsl and nearfield.hlsl,
+// The structures and constants of on_device.hpp are those of nearfield.glsl and nearfield.hlsl,
 // which stand alone for hosts that copy one of the three. Their declarations are C++ as well.
 namespace nearfield::resident {
 namespace {
@@ -24,9 +24,7 @@ using uvec4 = Several<uint, 4>;  // NOLINT(readability-identifier-naming)
 namespace hlsl {
 using float2 = Several<float, 2>;  // NOLINT(readability-identifier-naming)
 using uint4 = Several<uint, 4>;    // NOLINT(readability-identifier-naming)
-#define position point             // the one member that has another name in HLSL
 #include <nearfield/nearfield.hlsl>
-#undef position
 }  // namespace hlsl
 
 #define NEARFIELD_SAME_MEMBER(ours, theirs, member)                           \
