@@ -104,6 +104,10 @@ bool check(std::uint32_t index, const AnyQuery& any, const QueryShapes& shapes,
             if constexpr (requires { query.tolerance; }) {
                 result.tolerance = query.tolerance;
             }
+            if constexpr (std::is_same_v<Query, IntersectionQuery>) {
+                result.kind = query.kind;
+                result.strategy = query.strategy;
+            }
             result.technique = query.technique;
             // Success is not copied: thousands of queries have it in common.
             Status status = check_with_shapes(query, shapes, limits, submissions);

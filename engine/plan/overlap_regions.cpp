@@ -47,8 +47,6 @@ double OverlapRegions::bytes_of_samples(const IntersectionQuery& query, double l
 bool OverlapRegions::cover(const CheckedQuery& query, const PlanLimits& limits,
                            IntersectionResult& result) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
-    result.kind = asked.kind;
-    result.strategy = asked.strategy;
     const TransformedPolygon a(*query.a, query.pose_a);
     const TransformedPolygon b(*query.b, query.pose_b);
     const Box box_a = a.box();
