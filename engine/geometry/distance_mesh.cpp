@@ -144,7 +144,8 @@ void DistanceMesh::add_cone_sector(const Vector& in, const Vector& v, const Vect
     }
     // Where the boundary turns left, the tents on its right separate, and vice versa. The normals
     // on that side turn with the boundary, or through the tip where it turns back on itself.
-    const double sine = cross(in, out);
+    // Where it turns straight back the sine may be -0.0, whose angle is that of a right turn.
+    const double sine = cross(in, out) + 0.0;
     const double cosine = in.dot(out);
     const double side = sine >= 0.0 ? -1.0 : 1.0;
     const Vector from = side * left_normal(in);

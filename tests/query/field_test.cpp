@@ -113,6 +113,19 @@ TEST_F(Field, HoldsForEveryFamily) {
     }
 }
 
+/// Along the axes the sine of such a turn is 0.0 or -0.0: spikes without a width, and a hole of
+/// which simplification leaves two edges, there and back.
+TEST_F(Field, HoldsWhereBoundariesTurnBack) {
+    const Ring spikes{{-0.5, -0.5}, {0.0, -0.5}, {0.0, -1.0}, {0.0, -0.5}, {0.5, -0.5}, {0.5, 0.0},
+                      {1.0, 0.0},   {0.5, 0.0},  {0.5, 0.5},  {0.0, 0.5},  {0.0, 1.0},  {0.0, 0.5},
+                      {-0.5, 0.5},  {-0.5, 0.0}, {-1.0, 0.0}, {-0.5, 0.0}};
+    check({spikes}, {}, 0.05, {{-2.0, -2.0}, {2.0, 2.0}});
+    const double small = 0.001;
+    check({rectangle({-2.0, -2.0}, {2.0, 2.0}).front(),
+           rectangle({-small, -small}, {small, small}).front()},
+          {}, 0.05, {{-1.0, -1.0}, {1.0, 1.0}});
+}
+
 TEST_F(Field, CoversWhatTheBoxesShare) {
     const int cases = random_cases(60);
     for (int i = 0; i < cases; ++i) {
