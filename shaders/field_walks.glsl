@@ -86,27 +86,9 @@ bool next_chunk(Shape shape, Place place, float reach, inout Walk walk, inout bo
     return false;
 }
 
-// Follows the nearest box from level to level.
-uint nearest_chunk(Shape shape, Place place) {
-    uint box = 0u;
-    for (uint level = shape.levels; level > 0u; --level) {
-        Group group = group_of(shape, level - 1u, box);
-        uint best = 0u;
-        float least = infinity;
-        for (uint i = 0u; i < group.count; ++i) {
-            vec4 bounds = floats_at(group.first + i);
-            float d = distance(place.in_frame, clamp(place.in_frame, bounds.xy, bounds.zw));
-            best = d < least ? i : best;
-            least = min(d, least);
-        }
-        box = chunk_size * box + best;
-    }
-    return box;
-}
-
 Nearest find_nearest(FieldTileData tile, Shape shape, Place place, inout uint turns) {
     Nearest nearest = nothing_near;
-    consider(tile, shape, place, nearest_chunk(shape, place), nearest, turns);
+    consider(tile, shape, place, nearest_chunk(shape, place.in_frame), nearest, turns);
     Walk walk = start_walk(shape);
     bool enters = true;
     uint chunk;

@@ -19,8 +19,7 @@ uint overlaps(uint unit, bool exists, vec4 own, uint bit) {
         return 0u;
     }
     vec4 box = uintBitsToFloat(scratch_unit(unit + bit));
-    bool do_overlap = all(lessThanEqual(box.xy, own.zw)) && all(lessThanEqual(own.xy, box.zw));
-    return do_overlap ? 1u << bit : 0u;
+    return do_overlap(box, own) ? 1u << bit : 0u;
 }
 
 // The boxes of a walk's group that overlap with a box; without a loop, since long walks call it in

@@ -1,6 +1,7 @@
 // Access to the tiles and to the geometry array (layout.h).
 
 #include "layout.h"
+#include "segments.glsl"
 
 // Software drivers load memory one thread at a time, at a cost per load, so words that are needed
 // together are loaded four at a time.
@@ -46,17 +47,6 @@ vec4 cluster_box(EdgeListData list, uint i) {
 // The edge at position i of a list.
 EdgeData list_edge(EdgeListData list, uint i) {
     return edge_at(list.edges + 4u * i);
-}
-
-// Parameter of the point of a segment nearest to p: 0 at a, 1 at b.
-float along_segment(vec2 p, vec2 a, vec2 b) {
-    vec2 d = b - a;
-    float squared = dot(d, d);
-    return squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0;
-}
-
-vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
-    return a + along_segment(p, a, b) * (b - a);
 }
 
 float distance_to_segment(vec2 p, vec2 a, vec2 b) {

@@ -5,11 +5,6 @@ const float infinity = 1.0 / 0.0;
 // Relative difference of two distances far from B that single precision cannot resolve.
 const float relative_margin = 1.0 / 262144.0;
 
-bool crosses(vec2 p, vec2 a, vec2 b) {
-    // Half-open in y, so a vertex on the ray counts once.
-    return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
-}
-
 bool run_crosses(vec2 p, EdgeData edge) {
     bool odd = false;
     vec2 a = geometry[edge.run];

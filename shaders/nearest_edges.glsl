@@ -15,11 +15,6 @@ struct Nearest {
     vec4 third;
 };
 
-float squared_distance_to_box(vec2 p, vec4 box) {
-    vec2 apart = max(max(box.xy - p, p - box.zw), vec2(0.0));
-    return dot(apart, apart);
-}
-
 // The squared lengths of edges that are points as far as single precision can tell.
 const float shortest_squared = 1e-24;
 
@@ -67,24 +62,6 @@ void consider_chunk(Points p, Shape b, uint chunk, inout Nearest nearest) {
     }
 }
 
-// Follows the nearest box from level to level: a first bound for the search. Returns the chunk.
-uint descend_to_nearest(Points p, Shape b, inout Nearest nearest) {
-    uint box = 0u;
-    for (uint level = b.levels; level > 0u; --level) {
-        Group group = group_of(b, level - 1u, box);
-        uint best = 0u;
-        float least_squared = infinity;
-        for (uint i = 0u; i < group.count; ++i) {
-            float d = squared_distance_to_box(p.centre, floats_at(group.first + i));
-            best = d < least_squared ? i : best;
-            least_squared = min(d, least_squared);
-        }
-        box = chunk_size * box + best;
-    }
-    consider_chunk(p, b, box, nearest);
-    return box;
-}
-
 // The boxes of a walk's group that may hold an edge within `reach` of one of the points.
 void enter(inout Walk walk, Points p, Shape b, float reach) {
     Group group = group_of(b, walk.level, walk.group);
@@ -105,7 +82,8 @@ Nearest find_nearest(Points p, Shape b, vec4 limit, float more, inout bool too_l
     vec4 none = vec4(infinity);
     Nearest nearest = Nearest(none, vec4(0.0), vec4(0.0), uvec4(no_parts), none, uvec4(no_parts), none);
     vec4 limit_squared = limit * limit;
-    uint considered = descend_to_nearest(p, b, nearest);
+    uint considered = nearest_chunk(b, p.centre);  // gives a first bound
+    consider_chunk(p, b, considered, nearest);
     Walk walk = start_walk(b);
     for (uint steps = 0u; steps < max_steps && !too_long; ++steps) {
         enter(walk, p, b, sqrt(largest(min(nearest.squared, limit_squared))) + more);

@@ -40,11 +40,7 @@ vec4 box_of_boxes(Shape shape, mat2 frame) {
     uint first = word_at(shape.first_boxes + level);
     vec4 box = empty_box;
     for (uint i = 0u; i < count; ++i) {
-        vec4 own = floats_at(first + i);
-        vec2 centre = frame * (0.5 * (own.xy + own.zw));
-        vec2 half_size = 0.5 * (own.zw - own.xy);
-        vec2 reach = abs(frame[0]) * half_size.x + abs(frame[1]) * half_size.y;
-        box = merged(box, vec4(centre - reach, centre + reach));
+        box = merged(box, turned_box(floats_at(first + i), frame, vec2(0.0), 0.0));
     }
     return box;
 }

@@ -6,12 +6,13 @@
 // intersect. The reverse of a pair of another part has no row.
 
 #include "search.glsl"
-#include "block_sum.glsl"
 #include "found_points.glsl"
 #include "rings_inside.glsl"
 #include "pair_totals.glsl"
 
 layout(local_size_x = group_size) in;
+
+#include "sums.glsl"
 
 // The direction from B to A. If there was no room for that, any other.
 uint reverse_of(uint direction) {

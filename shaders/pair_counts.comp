@@ -6,12 +6,13 @@
 // first ones are kept.
 
 #include "search.glsl"
-#include "block_sum.glsl"
 #include "pairs.glsl"
 #include "pair_sums.glsl"
 #include "instance_walk.glsl"
 
 layout(local_size_x = group_size) in;
+
+#include "sums.glsl"
 
 void take_pair(uint a, uint place, uint number) {
     if (number < kept_pairs) {

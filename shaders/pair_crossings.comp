@@ -25,8 +25,7 @@ void enter(inout Walk walk, Shape b, vec4 own) {
     for (uint i = 0u; i < group.count; ++i) {
         vec4 box = next;
         next = floats_at(group.first + i + 1u);
-        bool visit = all(lessThanEqual(box.xy, own.zw)) && all(lessThanEqual(own.xy, box.zw));
-        boxes |= visit ? 1u << i : 0u;
+        boxes |= do_overlap(box, own) ? 1u << i : 0u;
     }
     add_boxes(walk, boxes);
 }

@@ -10,11 +10,6 @@
 
 layout(local_size_x = group_size) in;
 
-// Everything happens in floats: rounded sines and cosines, a handful of operations, each of which
-// errs by at most 2^-24 of its result. 2^-20 of the largest coordinates covers them. The places of
-// the instances are known to 2^-47 of theirs.
-const float margin_of_frames = 1.0 / 1048576.0;
-const float margin_of_places = 1.0 / 140737488355328.0;
 // plan::search_precision
 const float search_precision = 1.0 / 16384.0;
 
@@ -40,22 +35,19 @@ uint rank_of(uint b, List list) {
 
 SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b) {
     PairQueryData query = pair_query();
-    vec2 apart = (a.high - b.high) + (a.low - b.low);
-    mat2 to_b = mat2(b.axis.x, -b.axis.y, b.axis.y, b.axis.x);
-    vec2 axis = (a.unit / b.unit) * (to_b * a.axis);
-    vec2 offset = (to_b * apart) / b.unit;
-    float extent = (a.radius + b.radius) / b.unit + length(offset);
-    float places = (abs(a.high.x) + abs(a.high.y) + abs(b.high.x) + abs(b.high.y)) / b.unit;
-    float margin = margin_of_frames * extent + margin_of_places * places +
-                   2.0 * (a.rounding + b.rounding) / b.unit;
-    float rival = query.rival / b.unit;
-    float doubt = margin > search_precision * query.cell / b.unit ? rival + 4.0 * margin : -1.0;
+    SearchDirectionData direction = frames_of(a, b);
+    float margin = direction.margin;
+    direction.parts = a.parts;
     // In a test, three margins more than the reach is certainly too far.
-    float reach = (1.0 + margin_of_frames) * query.reach / b.unit +
-                  (query.is_test != 0u ? margin : 0.0);
-    return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, reach, margin, rival,
-                               asks_outside(query) ? 1.0 : 0.0, doubt, query.touching / b.unit, 0u,
-                               0u);
+    direction.reach = (1.0 + margin_of_frames) * query.reach / b.unit +
+                      (query.is_test != 0u ? margin : 0.0);
+    direction.rival = query.rival / b.unit;
+    direction.outside = asks_outside(query) ? 1.0 : 0.0;
+    direction.doubt = margin > search_precision * query.cell / b.unit
+                          ? direction.rival + 4.0 * margin
+                          : -1.0;
+    direction.touching = query.touching / b.unit;
+    return direction;
 }
 
 void main() {

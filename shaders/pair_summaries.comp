@@ -5,12 +5,13 @@
 // the deepest, and whether single precision can tell that, or at least that there is one.
 
 #include "search.glsl"
-#include "block_sum.glsl"
 #include "found_points.glsl"
 #include "pairs.h"
 #include "pair_totals.glsl"
 
 layout(local_size_x = group_size) in;
+
+#include "sums.glsl"
 
 struct Depths {
     uint found;

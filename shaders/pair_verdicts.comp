@@ -5,11 +5,12 @@
 // shape holds a ring of the other.
 
 #include "search.glsl"
-#include "block_sum.glsl"
 #include "rings_inside.glsl"
 #include "pair_totals.glsl"
 
 layout(local_size_x = group_size) in;
+
+#include "sums.glsl"
 
 // The count of the pair's row, with flags; 0 without one.
 uint count_of(uint pair) {

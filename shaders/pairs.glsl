@@ -38,6 +38,32 @@ SearchInstanceData instance_at(uint number) {
                               uintBitsToFloat(last.w));
 }
 
+// Everything happens in floats: rounded sines and cosines, a handful of operations, each of which
+// errs by at most 2^-24 of its result. 2^-20 of the largest coordinates covers them. The places of
+// the instances are known to 2^-47 of theirs.
+const float margin_of_frames = 1.0 / 1048576.0;
+const float margin_of_places = 1.0 / 140737488355328.0;
+
+float sum_of(vec2 v) {
+    return abs(v.x) + abs(v.y);
+}
+
+// A's frame in B's, their shapes, and the bound on the errors.
+SearchDirectionData frames_of(SearchInstanceData a, SearchInstanceData b) {
+    vec2 apart = (a.high - b.high) + (a.low - b.low);
+    mat2 to_b = mat2(b.axis.x, -b.axis.y, b.axis.y, b.axis.x);
+    SearchDirectionData direction;
+    direction.axis = (a.unit / b.unit) * (to_b * a.axis);
+    direction.offset = (to_b * apart) / b.unit;
+    direction.shape_a = a.shape;
+    direction.shape_b = b.shape;
+    float extent = (a.radius + b.radius) / b.unit + length(direction.offset);
+    float places = (sum_of(a.high) + sum_of(b.high)) / b.unit;
+    direction.margin = margin_of_frames * extent + margin_of_places * places +
+                       2.0 * (a.rounding + b.rounding) / b.unit;
+    return direction;
+}
+
 // The number of the instance at a place in the hierarchy.
 uint instance_in_order(uint place) {
     return instance_words[instance_units[0].w + place];

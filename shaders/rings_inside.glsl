@@ -15,11 +15,6 @@ vec2 ring_start(uint shape, uint ring) {
     return floats_at(unit_at(shape).z + chunk_size * chunk).xy;
 }
 
-bool crosses(vec2 p, vec2 a, vec2 b) {
-    // Half-open in y, so a vertex on the ray counts once.
-    return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
-}
-
 bool ray_meets(vec2 p, vec4 box) {
     return p.y >= box.y && p.y <= box.w && p.x <= box.z;
 }
@@ -74,26 +69,41 @@ bool follow(inout Ray ray) {
     return true;
 }
 
+// A search for a ring of one shape in the other.
+struct RingSearch {
+    uint ring;  // the next one
+    bool follows;
+    Ray ray;  // of the one before
+};
+
+// One step, which may come to a verdict; false at the end.
+bool step_in_rings(SearchDirectionData direction, inout RingSearch rings, inout uint verdict) {
+    if (rings.follows) {
+        rings.follows = follow(rings.ray);
+        verdict = !rings.follows && rings.ray.odd ? pair_meets : verdict;
+        return true;
+    }
+    uint rings_of_a = unit_at(direction.shape_a + unit_of_rings).x;
+    if (rings.ring == rings_of_a + unit_at(direction.shape_b + unit_of_rings).x) {
+        return false;
+    }
+    bool of_a = rings.ring < rings_of_a;
+    rings.follows =
+        start_ray(direction, of_a, of_a ? rings.ring : rings.ring - rings_of_a, rings.ray);
+    ++rings.ring;
+    return true;
+}
+
 // Of boundaries that do not meet: whether a ring of one shape lies in the other. One loop over all
 // rays, since some drivers add up the turns of all loops (max_instance_steps).
 uint find_ring_inside(SearchDirectionData direction) {
-    uint rings_of_a = unit_at(direction.shape_a + unit_of_rings).x;
-    uint rings = rings_of_a + unit_at(direction.shape_b + unit_of_rings).x;
-    uint ring = 0u;
-    bool follows = false;
-    Ray ray;
+    RingSearch rings;
+    rings.ring = 0u;
+    rings.follows = false;
+    uint verdict = 0u;
     for (uint i = 0u; i < max_ring_turns; ++i) {
-        if (follows) {
-            follows = follow(ray);
-            if (!follows && ray.odd) {
-                return pair_meets;
-            }
-        } else if (ring < rings) {
-            bool of_a = ring < rings_of_a;
-            follows = start_ray(direction, of_a, of_a ? ring : ring - rings_of_a, ray);
-            ++ring;
-        } else {
-            return 0u;
+        if (!step_in_rings(direction, rings, verdict) || verdict != 0u) {
+            return verdict;
         }
     }
     return pair_in_doubt;

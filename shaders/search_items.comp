@@ -5,22 +5,10 @@
 // which of these edges can have points that are asked for.
 
 #include "search.glsl"
-#include "block_sum.glsl"
 
 layout(local_size_x = group_size) in;
 
-bool overlap(vec4 a, vec4 b) {
-    return all(lessThanEqual(a.xy, b.zw)) && all(lessThanEqual(b.xy, a.zw));
-}
-
-// The box, in B's frame, of a box in A's.
-vec4 transformed(SearchDirectionData direction, vec4 box) {
-    mat2 rotation = rotation_of(direction);
-    vec2 centre = placed(direction, 0.5 * (box.xy + box.zw));
-    vec2 half_size = 0.5 * (box.zw - box.xy);
-    vec2 reach = abs(rotation[0]) * half_size.x + abs(rotation[1]) * half_size.y;
-    return vec4(centre - reach, centre + reach);
-}
+#include "sums.glsl"
 
 uint edges_of(uint item, uint direction_index) {
     SearchDirectionData direction = direction_at(direction_index);
@@ -28,7 +16,8 @@ uint edges_of(uint item, uint direction_index) {
     uint chunk = chunk_along_rings(a, item - direction.first_item);
     float grow = direction.reach + 2.0 * direction.margin;
     vec4 near = box_of_shape(direction.shape_b) + vec4(-grow, -grow, grow, grow);
-    if (!overlap(transformed(direction, floats_at(word_at(a.first_boxes) + chunk)), near)) {
+    vec4 box = floats_at(word_at(a.first_boxes) + chunk);
+    if (!do_overlap(turned_box(box, rotation_of(direction), direction.offset, 0.0), near)) {
         return 0u;
     }
     // Of pairs of contacts, the edges without samples may cross B's too.
@@ -41,7 +30,7 @@ uint edges_of(uint item, uint direction_index) {
         next = floats_at(a.edges + chunk_size * chunk + i + 1u);
         vec2 from = placed(direction, edge.xy);
         vec2 to = placed(direction, edge.zw);
-        if (overlap(vec4(min(from, to), max(from, to)), near) &&
+        if (do_overlap(vec4(min(from, to), max(from, to)), near) &&
             (crosses || parts_of(direction, (info >> 4) + i) > 0u)) {
             mask |= 1u << i;
         }

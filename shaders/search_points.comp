@@ -6,10 +6,10 @@
 // of B, and what single precision leaves in doubt.
 
 #include "search.glsl"
-#include "block_sum.glsl"
 
 layout(local_size_x = group_size) in;
 
+#include "sums.glsl"
 #include "four_points.glsl"
 #include "nearest_edges.glsl"
 

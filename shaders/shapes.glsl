@@ -2,6 +2,7 @@
 // lengths are in the shape's frame, relative to its centre, in its units.
 
 #include "search.h"
+#include "segments.glsl"
 
 layout(std430, set = 0, binding = 0) readonly buffer Input {
     uvec4 units[];
@@ -24,6 +25,18 @@ uint word_at(uint word) {
     return unit_at(word >> 2)[word & 3u];
 }
 
+// The last of `count` words of the input, `stride` apart, that is at most `key`; they ascend.
+uint last_of_input(uint key, uint first, uint count, uint stride) {
+    uint last = 0u;
+    while (count > 1u) {
+        uint half_count = count / 2u;
+        bool is_before = word_at(first + stride * (last + half_count)) <= key;
+        last += is_before ? half_count : 0u;
+        count = is_before ? count - half_count : half_count;
+    }
+    return last;
+}
+
 struct Shape {
     uint chunks;
     uint levels;
@@ -41,6 +54,18 @@ vec4 box_of_shape(uint unit) {
     return floats_at(unit + unit_of_box);
 }
 
+bool do_overlap(vec4 box, vec4 other) {
+    return all(lessThanEqual(box.xy, other.zw)) && all(lessThanEqual(other.xy, box.zw));
+}
+
+// The box around a box in another frame, which lies at `offset` there.
+vec4 turned_box(vec4 box, mat2 frame, vec2 offset, float grow) {
+    vec2 centre = frame * (0.5 * (box.xy + box.zw)) + offset;
+    vec2 half_size = 0.5 * (box.zw - box.xy);
+    vec2 reach = abs(frame[0]) * half_size.x + abs(frame[1]) * half_size.y + grow;
+    return vec4(centre - reach, centre + reach);
+}
+
 // The chunk at a place along the rings of the shape.
 uint chunk_along_rings(Shape shape, uint place) {
     return word_at(shape.infos + 4u * ((shape.chunks + 3u) / 4u) + place);
@@ -56,10 +81,9 @@ uint number_of(Shape shape, uint slot) {
     return (word_at(shape.infos + slot / chunk_size) >> 4) + slot % chunk_size;
 }
 
-vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
-    vec2 d = b - a;
-    float squared = dot(d, d);
-    return a + (squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0) * d;
+float squared_distance_to_box(vec2 p, vec4 box) {
+    vec2 apart = max(max(box.xy - p, p - box.zw), vec2(0.0));
+    return dot(apart, apart);
 }
 
 // A walk over the boxes of a shape from the top level to chunks, depth first. Searches enter a group of
@@ -81,6 +105,23 @@ Group group_of(Shape shape, uint level, uint group) {
     uint boxes = (shape.chunks + (1u << (3u * level)) - 1u) >> (3u * level);
     return Group(word_at(shape.first_boxes + level) + chunk_size * group,
                  min(boxes - chunk_size * group, chunk_size));
+}
+
+// Follows the box nearest to a point from level to level.
+uint nearest_chunk(Shape shape, vec2 p) {
+    uint box = 0u;
+    for (uint level = shape.levels; level > 0u; --level) {
+        Group group = group_of(shape, level - 1u, box);
+        uint best = 0u;
+        float least_squared = infinity;
+        for (uint i = 0u; i < group.count; ++i) {
+            float d = squared_distance_to_box(p, floats_at(group.first + i));
+            best = d < least_squared ? i : best;
+            least_squared = min(d, least_squared);
+        }
+        box = chunk_size * box + best;
+    }
+    return box;
 }
 
 Walk start_walk(Shape shape) {

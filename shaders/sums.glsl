@@ -1,9 +1,10 @@
-// Sums over the blocks of elements before one. Include after search.glsl, in a shader that has declared
-// its local size.
+// Sums over the elements of a workgroup, one per thread, and over the blocks of elements before one.
+// Called from every thread of the workgroup. Include after search.glsl, in a shader that has declared its
+// local size.
 
 const uint max_sum = 1u << 30;  // sums end here; there is never as much room
 
-const uint scan_group = 16u;  // threads whose sums are added first
+const uint scan_group = 8u;  // threads whose sums are added first
 shared uint thread_sums[gl_WorkGroupSize.x];
 shared uint scan_group_sums[gl_WorkGroupSize.x / scan_group];
 shared uint sum_of_all;
@@ -32,6 +33,16 @@ uint sum_before_thread(uint own_sum) {
     return before;
 }
 
+// Returns the sum of the counts of the threads before this one; the last thread also stores that of
+// all at a word of the scratch memory.
+uint sum_before(uint count, uint block_word) {
+    uint before = sum_before_thread(count);
+    if (gl_LocalInvocationID.x + 1u == gl_WorkGroupSize.x) {
+        scratch[block_word] = added(before, count);
+    }
+    return before;
+}
+
 // Four words of an array from the one of that number on, which four divides; 0 beyond its end. `first`:
 // the array's first word, the first one of a unit.
 uvec4 words_from(uint number, uint first, uint count) {
@@ -44,7 +55,7 @@ uint sum_of_four(uvec4 words) {
     return added(added(words.x, words.y), added(words.z, words.w));
 }
 
-// Returns the sum of the words of an array. Call from every thread of the workgroup.
+// Returns the sum of the words of an array.
 uint sum_of_words(uint first, uint count) {
     uint sum = 0u;
     const uint step = 4u * gl_WorkGroupSize.x;

@@ -27,62 +27,43 @@ struct Test {
     vec4 box;    // of that chunk, or else of B, in B's frame, grown by what is near
     Shape other;
     Walk walk;  // over B's boxes
-    uint ring;  // the next one
-    bool follows;
-    Ray ray;
+    RingSearch rings;
 };
 
-PoseData pose_at(uint index) {
+// The shape at a pose.
+SearchInstanceData posed(uint index) {
     vec4 first = uintBitsToFloat(queries[units_of_pose * index]);
     uvec4 second = queries[units_of_pose * index + 1u];
-    return PoseData(first.xy, first.zw, uintBitsToFloat(second.xy), uintBitsToFloat(second.z), 0u);
+    SearchInstanceData posed;
+    posed.axis = first.xy;
+    posed.high = first.zw;
+    posed.low = uintBitsToFloat(second.xy);
+    posed.unit = push.unit;
+    posed.radius = push.radius;
+    posed.shape = push.shape;
+    posed.rounding = uintBitsToFloat(second.z);
+    return posed;
 }
 
-vec4 turned_box(vec4 box, mat2 frame, vec2 offset, float grow) {
-    vec2 centre = frame * (0.5 * (box.xy + box.zw)) + offset;
-    vec2 half_size = 0.5 * (box.zw - box.xy);
-    vec2 reach = abs(frame[0]) * half_size.x + abs(frame[1]) * half_size.y + grow;
-    return vec4(centre - reach, centre + reach);
-}
-
-vec4 box_in_world(PoseData pose) {
-    mat2 frame = push.unit * mat2(pose.axis.x, pose.axis.y, -pose.axis.y, pose.axis.x);
-    return turned_box(box_of_shape(push.shape), frame, pose.high,
-                      margin_of_frames * (push.radius + sum_of(pose.high)) + 2.0 * pose.rounding);
-}
-
-// As pair_directions.comp has it.
-SearchDirectionData direction_to(PoseData a, SearchInstanceData b) {
-    vec2 apart = (a.high - b.high) + (a.low - b.low);
-    mat2 to_b = mat2(b.axis.x, -b.axis.y, b.axis.y, b.axis.x);
-    SearchDirectionData direction;
-    direction.axis = (push.unit / b.unit) * (to_b * a.axis);
-    direction.offset = (to_b * apart) / b.unit;
-    direction.shape_a = push.shape;
-    direction.shape_b = b.shape;
-    float extent = (push.radius + b.radius) / b.unit + length(direction.offset);
-    float places = (sum_of(a.high) + sum_of(b.high)) / b.unit;
-    direction.margin = margin_of_frames * extent + margin_of_places * places +
-                       2.0 * (a.rounding + b.rounding) / b.unit;
-    return direction;
+vec4 box_in_world(SearchInstanceData posed) {
+    mat2 frame = posed.unit * mat2(posed.axis.x, posed.axis.y, -posed.axis.y, posed.axis.x);
+    return turned_box(box_of_shape(posed.shape), frame, posed.high,
+                      margin_of_frames * (posed.radius + sum_of(posed.high)) +
+                          2.0 * posed.rounding);
 }
 
 // False if single precision cannot tell.
-bool start_test(PoseData pose, SearchInstanceData instance, out Test test) {
-    test.direction = direction_to(pose, instance);
+bool start_test(SearchInstanceData posed, SearchInstanceData instance, out Test test) {
+    test.direction = frames_of(posed, instance);
     float margin = test.direction.margin;
     test.limits = Limits(-3.0 * margin, 3.0 * margin, 3.0 * margin);
     test.verdict = 0u;
     test.other = shape_at(instance.shape);
     vec4 whole = box_of_shape(instance.shape);
     test.box = whole + test.limits.far * vec4(-2.0, -2.0, 2.0, 2.0);
-    test.ring = 0u;
-    test.follows = false;
+    test.rings.ring = 0u;
+    test.rings.follows = false;
     return instance.left_to_cpu == 0u && margin <= max_query_margin;
-}
-
-bool do_overlap(vec4 a, vec4 b) {
-    return all(lessThanEqual(a.xy, b.zw)) && all(lessThanEqual(b.xy, a.zw));
 }
 
 // Takes one of the marked boxes that overlap: of instances with the box of the pose, or of A's with
@@ -145,28 +126,8 @@ bool step_in_other(Search search, inout Test test) {
     return true;
 }
 
-// One step of the search for a ring of one shape in the other, as find_ring_inside(); false at its
-// end.
-bool step_in_rings(inout Test test) {
-    if (test.follows) {
-        test.follows = follow(test.ray);
-        test.verdict = !test.follows && test.ray.odd ? pair_meets : test.verdict;
-        return true;
-    }
-    uint rings_of_a = unit_at(test.direction.shape_a + unit_of_rings).x;
-    uint rings = rings_of_a + unit_at(test.direction.shape_b + unit_of_rings).x;
-    if (test.ring == rings) {
-        return false;
-    }
-    bool of_a = test.ring < rings_of_a;
-    test.follows =
-        start_ray(test.direction, of_a, of_a ? test.ring : test.ring - rings_of_a, test.ray);
-    ++test.ring;
-    return true;
-}
-
-uint answer_for(PoseData pose) {
-    vec4 own = box_in_world(pose);
+uint answer_for(SearchInstanceData posed) {
+    vec4 own = box_in_world(posed);
     bool in_doubt = false;
     uint goal = finds_instances;
     Test test;
@@ -183,7 +144,8 @@ uint answer_for(PoseData pose) {
                 goal = finds_own_chunks;
             }
         } else if (goal == finds_rings) {
-            goal = step_in_rings(test) ? finds_rings : finds_instances;
+            goal = step_in_rings(test.direction, test.rings, test.verdict) ? finds_rings
+                                                                           : finds_instances;
         } else if (take_overlapping(search, own, test, box)) {
             if (search.walk.level > 0u) {
                 go_down(search, box);
@@ -191,7 +153,7 @@ uint answer_for(PoseData pose) {
                 start_chunk(search, box, test);
                 goal = finds_chunks;
             } else if (find_instance(search, box)) {
-                if (!start_test(pose, search.instance, test)) {
+                if (!start_test(posed, search.instance, test)) {
                     return answered_by_cpu;
                 }
                 go_in(search, push.shape);
@@ -213,6 +175,6 @@ uint answer_for(PoseData pose) {
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index < push.count) {
-        scratch[4u * push.answers + index] = answer_for(pose_at(index));
+        scratch[4u * push.answers + index] = answer_for(posed(index));
     }
 }

@@ -14,15 +14,6 @@ layout(std430, set = 0, binding = 3) readonly buffer Queries {
     uvec4 queries[];
 };
 
-// As in pair_directions.comp: a handful of operations on the largest coordinates, and places that
-// are known to 2^-47 of theirs.
-const float margin_of_frames = 1.0 / 1048576.0;
-const float margin_of_places = 1.0 / 140737488355328.0;
-
-float sum_of(vec2 v) {
-    return abs(v.x) + abs(v.y);
-}
-
 // A walk over the boxes of the instances. In an instance it goes on over those of the shape, whose
 // lowest level are chunks.
 struct Search {
