@@ -12,7 +12,6 @@ struct Square {
     vec2 up;
     vec4 corners_x;
     vec4 corners_y;
-    float radius;
 };
 
 const vec4 corner_across = vec4(-1.0, 1.0, -1.0, 1.0);
@@ -28,7 +27,7 @@ Square square_at(FieldTileData tile, uvec2 place, uint side) {
     vec2 across = half_size.x * vec2(axis.x, -axis.y);
     vec2 up = half_size.y * vec2(axis.y, axis.x);
     return Square(centre, across, up, centre.x + corner_across * across.x + corner_up * up.x,
-                  centre.y + corner_across * across.y + corner_up * up.y, length(across + up));
+                  centre.y + corner_across * across.y + corner_up * up.y);
 }
 
 vec2 way_from_box(vec2 p, vec4 box) {
