@@ -1,9 +1,6 @@
 // The words of a field's cells: sign from the fill's mask, feature and flags. Include after
 // fields.glsl; the shader declares scratch[].
 
-// Relative difference of two distances far from B that single precision cannot resolve.
-const float relative_margin = 1.0 / 262144.0;
-
 bool is_filled(FieldTileData tile, uvec2 cell) {
     uint words_per_row = (unpacked(tile.b.size).x + 31u) / 32u;
     return (scratch[tile.b.mask + cell.y * words_per_row + cell.x / 32u] & (1u << (cell.x & 31u))) != 0u;
@@ -21,15 +18,6 @@ const Nearest nothing_near = Nearest(infinity, vec2(0.0), 0u, 0u);
 
 float margin_of(FieldTileData tile, float distance) {
     return max(tile.margin, relative_margin * distance);
-}
-
-// A second boundary point that is as near as the nearest one, up to the margin, is a rival if it is
-// more than twice as far from it as one straight edge explains.
-bool is_rival(vec2 point, Nearest nearest, float margin) {
-    float limit = nearest.distance + margin;
-    float along_wall = margin * (limit + nearest.distance);  // limit^2 - distance^2
-    vec2 apart = point - nearest.point;
-    return length(point) <= limit && dot(apart, apart) > 4.0 * along_wall;
 }
 
 uint feature_word(uint edge, bool has_rival, bool inside, uint vertex) {

@@ -110,7 +110,8 @@ bool find_rival(FieldTileData tile, Shape shape, Place place, Nearest nearest, i
             ++turns;
             uint vertex;
             uint slot = chunk_size * chunk + findLSB(near);
-            if (is_rival(way_to(tile, shape, place, slot, vertex), nearest, margin)) {
+            vec2 way = way_to(tile, shape, place, slot, vertex);
+            if (is_rival(nearest.distance, length(way), way - nearest.point, margin)) {
                 return true;
             }
         }

@@ -54,5 +54,5 @@ float distance_to_segment(vec2 p, vec2 a, vec2 b) {
 }
 
 float distance_to_box(vec2 p, vec4 box) {
-    return length(max(max(box.xy - p, p - box.zw), vec2(0.0)));
+    return length(way_to_box(p, box));
 }

@@ -2,8 +2,6 @@
 // B's own edges. Include after layout.glsl.
 
 const float infinity = 1.0 / 0.0;
-// Relative difference of two distances far from B that single precision cannot resolve.
-const float relative_margin = 1.0 / 262144.0;
 
 bool run_crosses(vec2 p, EdgeData edge) {
     bool odd = false;
@@ -83,14 +81,9 @@ Nearest find_nearest(vec2 p, EdgeListData list, Nearest nearest) {
     return nearest;
 }
 
-// A second boundary point that is as near as the nearest one, up to the margin, is a rival if it is
-// more than twice as far from it as one straight edge explains.
 bool is_rival(vec2 p, vec2 a, vec2 b, Nearest nearest, float margin) {
     vec2 q = nearest_on_segment(p, a, b);
-    float limit = nearest.distance + margin;
-    float along_wall = margin * (limit + nearest.distance);  // limit^2 - distance^2
-    vec2 apart = q - nearest.point;
-    return distance(p, q) <= limit && dot(apart, apart) > 4.0 * along_wall;
+    return is_rival(nearest.distance, distance(p, q), q - nearest.point, margin);
 }
 
 bool run_has_rival(vec2 p, EdgeData edge, Nearest nearest, float margin) {

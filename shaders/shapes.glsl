@@ -82,8 +82,8 @@ uint number_of(Shape shape, uint slot) {
 }
 
 float squared_distance_to_box(vec2 p, vec4 box) {
-    vec2 apart = max(max(box.xy - p, p - box.zw), vec2(0.0));
-    return dot(apart, apart);
+    vec2 way = way_to_box(p, box);
+    return dot(way, way);
 }
 
 // A walk over the boxes of a shape from the top level to chunks, depth first. Searches enter a group of

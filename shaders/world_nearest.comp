@@ -38,16 +38,12 @@ struct Best {
     float others;     // no other instance is as near as this
 };
 
-float distance_of(vec2 p, vec4 box) {
-    return length(max(max(box.xy - p, p - box.zw), 0.0));
-}
-
 // The distance from a box as far as it is of interest, otherwise infinity.
 float key(uint goal, vec2 p, vec4 box, float margin, float reach) {
     if (goal == finds_side) {
         return p.y >= box.y && p.y <= box.w && p.x <= box.z ? 0.0 : infinity;
     }
-    float apart = distance_of(p, box);
+    float apart = length(way_to_box(p, box));
     return apart <= reach * (1.0 + margin_of_frames) + margin ? apart : infinity;
 }
 
@@ -182,7 +178,7 @@ bool find_nearest(NearestData point, inout Best best) {
                 near.lost = infinity;
                 vec4 whole = box_of_shape(instance.shape);
                 near.may_be_in = push.is_signed != 0u &&
-                                 distance_of(near.point, whole) <= 2.0 * near.margin;
+                                 length(way_to_box(near.point, whole)) <= 2.0 * near.margin;
                 goal = near.may_be_in ? finds_side : finds_edges;
                 if (instance.left_to_cpu != 0u || !(sum_of(near.point) <= largest_extent)) {
                     return false;
