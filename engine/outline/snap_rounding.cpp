@@ -1,8 +1,8 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/geometry/whole.hpp>
-#include <engine/outline/box_pairs.hpp>
 #include <engine/outline/exact_kernels.hpp>
 #include <engine/outline/snap_rounding.hpp>
+#include <engine/simd/box_hierarchy.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +97,12 @@ std::vector<Segment> segments_of(std::span<const Ring> rings) {
 class HotCells {
 public:
     HotCells(std::span<const Segment> segments, std::size_t most)
-        : segments_(segments), most_(most), tree_(boxes_of(segments)) {}
+        : segments_(segments), most_(most) {
+        for (std::uint32_t i = 0; i < segments.size(); ++i) {
+            tree_.set(i, box_of(segments[i]));
+        }
+        tree_.prepare();
+    }
 
     std::vector<Passage> find() {
         passages_.reserve(3 * segments_.size());
@@ -105,23 +110,23 @@ public:
             passages_.push_back({i, segments_[i].cell_of_a});
             passages_.push_back({i, segments_[i].cell_of_b});
         }
-        tree_.for_pairs([this](std::uint32_t i, std::uint32_t j) { examine(i, j); });
+        for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+            tree_.for_meeting(box_of(segments_[i]), [&](std::uint32_t j) {
+                if (i < j) {
+                    examine(i, j);
+                }
+            });
+        }
         add_passages_of_crossings();
         return std::move(passages_);
     }
 
 private:
-    /// The boxes of the segments, geometry::grown so that they contain every cell that a segment
-    /// passes.
-    static std::vector<geometry::Box> boxes_of(std::span<const Segment> segments) {
-        std::vector<geometry::Box> boxes;
-        boxes.reserve(segments.size());
-        for (const Segment& segment : segments) {
-            geometry::Box box(geometry::to_vector(segment.a));
-            box.extend(geometry::to_vector(segment.b));
-            boxes.push_back(geometry::grown(box, 1.0));
-        }
-        return boxes;
+    /// Contains every cell that a segment passes.
+    static geometry::Box box_of(const Segment& segment) {
+        geometry::Box box(geometry::to_vector(segment.a));
+        box.extend(geometry::to_vector(segment.b));
+        return geometry::grown(box, 1.0);
     }
 
     void examine(std::uint32_t i, std::uint32_t j) {
@@ -176,14 +181,14 @@ private:
         keep_different_crossings();
         for (const Cell& cell : crossings_) {
             const geometry::Vector centre(static_cast<double>(cell.x), static_cast<double>(cell.y));
-            tree_.for_boxes_at(geometry::Box(centre),
-                               [&](std::uint32_t i) { add_if_passing(i, cell); });
+            tree_.for_meeting(geometry::Box(centre),
+                              [&](std::uint32_t i) { add_if_passing(i, cell); });
         }
     }
 
     std::span<const Segment> segments_;
     std::size_t most_;
-    BoxPairs tree_;
+    simd::BoxHierarchy tree_;  // of the segments
     std::vector<Passage> passages_;
     std::vector<Cell> crossings_;
 };

@@ -1,4 +1,4 @@
-#include <engine/geometry/morton.hpp>
+#include <engine/geometry/hilbert_curve.hpp>
 #include <engine/plan/edge_sampler.hpp>
 #include <engine/plan/search_shapes.hpp>
 
@@ -37,14 +37,6 @@ std::uint32_t units_for(std::size_t words) {
 
 std::uint32_t chunks_for(std::uint32_t edges) {
     return (edges + chunk_size - 1) / chunk_size;
-}
-
-/// The place on a Morton curve of a point whose coordinates are at most `extent`.
-std::uint32_t on_morton_curve(const Vector& point, double extent) {
-    const auto part_of = [extent](double coordinate) {
-        return extent > 0.0 ? 0.5 + 0.5 * coordinate / extent : 0.0;
-    };
-    return geometry::on_morton_curve(part_of(point.x()), part_of(point.y()));
 }
 
 }  // namespace
@@ -182,10 +174,12 @@ void SearchShapes::list_edges(const Polygon& polygon, double deviation) {
 void SearchShapes::order_rings(const Polygon& polygon) {
     constexpr std::uint32_t few_rings = 32;
     rings_.clear();
+    const double radius = polygon.radius();
+    const geometry::HilbertCurve curve({-radius, -radius, radius, radius});
     std::uint32_t chunk = 0;
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
         const Vector& start = polygon.vertices()[polygon.ring_begin(ring)];
-        rings_.push_back({on_morton_curve(start, polygon.radius()), ring, chunk});
+        rings_.push_back({curve.at(start.x(), start.y()), ring, chunk});
         chunk += chunks_for(ring_begin_[ring + 1] - ring_begin_[ring]);
     }
     if (polygon.ring_count() >= few_rings) {

@@ -102,7 +102,7 @@ private:
     std::vector<std::array<float, 4>> boxes_;
     std::vector<geometry::SimplifiedEdge> edges_;  // of that shape
     std::vector<std::uint32_t> ring_begin_;        // in edges_; then the end of the last ring
-    /// Of a ring: its place on a Morton curve, its number, its first chunk along the rings.
+    /// Of a ring: its place on a Hilbert curve, its number, its first chunk along the rings.
     struct OrderedRing {
         std::uint32_t on_curve;
         std::uint32_t ring;

@@ -154,7 +154,7 @@ void TransformedInstances::rehash() {
 std::size_t TransformedInstances::bytes() const {
     std::size_t bytes = sizeof(Entry) * entries_.capacity() +
                         sizeof(std::uint32_t) * (slots_.capacity() + found_.capacity()) +
-                        morton_order_.bytes();
+                        ring_order_.bytes();
     const auto add = [&bytes](const Memory* memory) {
         bytes += memory == nullptr
                      ? 0

@@ -213,7 +213,10 @@ void TransformedInstances::complete(std::uint32_t index) {
     std::span<const std::uint32_t> rings;
     std::uint32_t lowest = AabbTree::boxes_over(count);
     if (is_in_pieces(polygon)) {
-        rings = morton_order_.find(polygon, entry.edges, entry.edges.box);
+        rings = ring_order_.sort(polygon.ring_count(), [&](std::size_t ring) {
+            const std::uint32_t edge = polygon.ring_begin(static_cast<std::uint32_t>(ring));
+            return Vector2{entry.edges.start_x[edge], entry.edges.start_y[edge]};
+        });
         lowest = cut_into_pieces(entry, rings);
     }
     if (entry.first_boxes == nowhere) {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <engine/geometry/hilbert_curve.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
 #include <engine/simd/aabb_tree.hpp>
-#include <engine/simd/morton_order.hpp>
 
 #include <array>
 #include <cstddef>
@@ -145,7 +145,7 @@ private:
     SearchTrials keeping_;  // small ones
     Memory shared_;
     std::vector<std::unique_ptr<Memory>> spare_;  // of former entries
-    MortonOrder morton_order_;
+    geometry::HilbertOrder ring_order_;
     // What each call of place() with a polygon and a pose returned, in this batch or, where it has
     // not come that far, in the one before: a batch often asks about the same pairs again.
     std::vector<std::uint32_t> found_;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <engine/batch/shape_store.hpp>
+#include <engine/geometry/hilbert_curve.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/pair_search.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/render/instance_buffers.hpp>
-#include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/shape.hpp>
@@ -115,7 +115,7 @@ private:
     std::uint64_t membership_ = 0;             // of the world, at the last update
     std::uint64_t shapes_revision_ = 0;
     std::uint64_t all_moves_ = 0;  // of the instances, when they were placed
-    world::HilbertOrder hilbert_order_;
+    geometry::HilbertOrder hilbert_order_;
     std::vector<Vector2> places_;         // of the instances
     std::uint32_t updates_in_order_ = 0;  // since they were ordered
     std::uint32_t end_index_ = 0;

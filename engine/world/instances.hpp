@@ -4,8 +4,8 @@
 #include <engine/geometry/polygon.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
+#include <engine/simd/box_hierarchy.hpp>
 #include <engine/simd/transformed_edges.hpp>
-#include <engine/world/box_hierarchy.hpp>
 #include <nearfield/world.hpp>
 
 #include <atomic>
@@ -18,6 +18,8 @@
 #include <vector>
 
 namespace nearfield::world {
+
+using simd::BoxHierarchy;
 
 /// Looks up a shape; null if there is none of that handle.
 struct FindShape {

@@ -3,8 +3,8 @@
 #include <engine/base/interruption.hpp>
 #include <engine/base/jobs.hpp>
 #include <engine/context/implementation.hpp>
+#include <engine/geometry/hilbert_curve.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
 #include <engine/world/job_lists.hpp>
 #include <engine/world/nearest_queries.hpp>
@@ -79,7 +79,7 @@ struct World::State {
     world::Instances instances;
     Jobs jobs;
     std::vector<Job> scratch;  // by job
-    world::HilbertOrder hilbert_order;
+    geometry::HilbertOrder hilbert_order;
     Batch batch;  // of shape casts
     Results results;
     std::vector<Candidate> candidates;  // by query of the batch

@@ -10,19 +10,19 @@
 #include <span>
 #include <vector>
 
-namespace nearfield::world {
+namespace nearfield::geometry {
 
 /// A Hilbert curve through the cells of a box: places that are close on it are close in the plane.
 class HilbertCurve {
 public:
     /// The box is divided `halvings` times along each axis: a multiple of 4, at most 16.
-    explicit HilbertCurve(const geometry::Extent& box, std::uint32_t halvings = 16);
+    explicit HilbertCurve(const Extent& box, std::uint32_t halvings = 16);
 
     /// The position on the curve of the cell that holds a point of the box.
     [[nodiscard]] std::uint32_t at(double x, double y) const;
 
 private:
-    geometry::Extent box_;
+    Extent box_;
     std::uint32_t halvings_;
     std::uint32_t cells_;
     double cells_per_x_;
@@ -37,7 +37,7 @@ public:
     template <class At>
     [[nodiscard]] std::span<const std::uint32_t> sort(std::size_t count, const At& at) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        geometry::Extent box{infinity, infinity, -infinity, -infinity};
+        Extent box{infinity, infinity, -infinity, -infinity};
         for (std::size_t i = 0; i < count; ++i) {
             const Vector2& place = at(i);
             box = {std::min(box.low_x, place.x), std::min(box.low_y, place.y),
@@ -47,20 +47,27 @@ public:
         positions_.clear();
         for (std::size_t i = 0; i < count; ++i) {
             const Vector2& place = at(i);
-            positions_.push_back(curve.at(place.x, place.y));
+            positions_.push_back(static_cast<std::uint16_t>(curve.at(place.x, place.y)));
         }
         return sort_positions();
     }
 
+    /// Host memory, in bytes.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(std::uint32_t) * (order_.capacity() + others_.capacity()) +
+               sizeof(std::uint16_t) * positions_.capacity();
+    }
+
 private:
-    // So few that places are counted by cell instead of being compared.
+    // So few that two bytes tell the cells apart: smaller differences are ignored.
     static constexpr std::uint32_t halvings = 8;
 
     [[nodiscard]] std::span<const std::uint32_t> sort_positions();
+    void sort_by_byte(std::uint32_t byte);
 
-    std::vector<std::uint32_t> positions_;  // on the curve
-    std::vector<std::uint32_t> begins_;     // of the places in each cell, in the order
+    std::vector<std::uint16_t> positions_;  // on the curve
     std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> others_;  // scratch for sorting
 };
 
-}  // namespace nearfield::world
+}  // namespace nearfield::geometry

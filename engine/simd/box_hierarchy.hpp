@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace nearfield::world {
+namespace nearfield::simd {
 
 /// A dynamic tree over many boxes, each named by a number of the caller's: eight boxes in one node,
 /// tested together. A box that changes is refitted along its path to the root; once many changes
@@ -63,9 +63,9 @@ public:
     [[nodiscard]] std::size_t node_count(std::uint32_t level) const {
         return levels_[level].size();
     }
-    static constexpr std::uint32_t doubles_per_node = 4 * simd::AabbTree::fan_out;
+    static constexpr std::uint32_t doubles_per_node = 4 * AabbTree::fan_out;
     /// Eight boxes of a level; those under its box i are number i of the level below.
-    [[nodiscard]] simd::BoxArrays boxes(std::uint32_t level, std::uint32_t number) const {
+    [[nodiscard]] BoxArrays boxes(std::uint32_t level, std::uint32_t number) const {
         return levels_[level][number].boxes();
     }
     /// The name of a box of level 0, or `nowhere`.
@@ -74,7 +74,7 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    static constexpr std::uint32_t fan_out = simd::AabbTree::fan_out;
+    static constexpr std::uint32_t fan_out = AabbTree::fan_out;
 
     /// Eight boxes as a structure of arrays, in one piece of memory.
     struct alignas(64) Node {
@@ -83,20 +83,20 @@ private:
         std::array<double, fan_out> high_x;
         std::array<double, fan_out> high_y;
 
-        [[nodiscard]] simd::BoxArrays boxes() const {
+        [[nodiscard]] BoxArrays boxes() const {
             return {fan_out, low_x.data(), low_y.data(), high_x.data(), high_y.data()};
         }
         void clear();
-        void set(std::uint32_t box, const simd::Extent& extent);
-        [[nodiscard]] simd::Extent at(std::uint32_t box) const;
+        void set(std::uint32_t box, const Extent& extent);
+        [[nodiscard]] Extent at(std::uint32_t box) const;
     };
     using Level = std::vector<Node>;
 
     template <class Use>
-    void visit_meeting(std::uint32_t level, std::uint32_t number, const simd::Extent& extent,
+    void visit_meeting(std::uint32_t level, std::uint32_t number, const Extent& extent,
                        const Use& use) const {
-        simd::BoxKeys keys;
-        simd::kernels::measure_boxes(levels_[level][number].boxes(), 0, extent, keys);
+        BoxKeys keys;
+        kernels::measure_boxes(levels_[level][number].boxes(), 0, extent, keys);
         for (std::uint32_t i = 0; i < fan_out; ++i) {
             if (keys[i] > 0.0) {
                 continue;
@@ -110,10 +110,10 @@ private:
     }
 
     template <class Bound, class Use>
-    void visit_near(std::uint32_t level, std::uint32_t number, const simd::Extent& extent,
+    void visit_near(std::uint32_t level, std::uint32_t number, const Extent& extent,
                     const Bound& bound, const Use& use) const {
-        simd::BoxKeys keys;
-        simd::kernels::measure_boxes(levels_[level][number].boxes(), 0, extent, keys);
+        BoxKeys keys;
+        kernels::measure_boxes(levels_[level][number].boxes(), 0, extent, keys);
         const double most = std::min(bound(), largest_key);
         std::uint32_t left = 0;
         for (std::uint32_t i = 0; i < fan_out; ++i) {
@@ -141,7 +141,7 @@ private:
     static constexpr double largest_key = 1e300;
 
     void build();
-    void set_box(std::size_t level, std::uint32_t box, const simd::Extent& extent);
+    void set_box(std::size_t level, std::uint32_t box, const Extent& extent);
     /// Writes the box over a node into the level above.
     void join(std::size_t level, std::uint32_t node);
     /// Makes the boxes above a lowest box fit again.
@@ -152,11 +152,11 @@ private:
     std::vector<std::uint32_t> names_;   // by lowest box; nowhere: unused
     std::vector<std::uint32_t> leaves_;  // by name; nowhere: none
     std::vector<std::uint32_t> free_;    // unused lowest boxes
-    std::vector<simd::Extent> boxes_;    // by name
+    std::vector<Extent> boxes_;          // by name
     double size_ = 0.0;                  // of all nodes over lowest boxes, together
     double size_when_built_ = 0.0;
     // Scratch for building.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> on_curve_;
 };
 
-}  // namespace nearfield::world
+}  // namespace nearfield::simd

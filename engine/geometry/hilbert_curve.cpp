@@ -1,10 +1,10 @@
-#include <engine/world/hilbert_curve.hpp>
+#include <engine/geometry/hilbert_curve.hpp>
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 
-namespace nearfield::world {
+namespace nearfield::geometry {
 namespace {
 
 double cells_per_unit(double low, double high, std::uint32_t cells) {
@@ -16,12 +16,13 @@ std::uint32_t cell_of(double from_low, double cells_per_unit, std::uint32_t cell
         std::clamp(from_low * cells_per_unit, 0.0, static_cast<double>(cells - 1)));
 }
 
-/// So many halvings are looked up at once, in a table of the cells of a square of this side.
+/// So many halvings are looked up at once, in a table of the cells of a square of this
+/// table_side.
 constexpr std::uint32_t halvings_at_once = 4;
-constexpr std::uint32_t side = 1U << halvings_at_once;
+constexpr std::uint32_t table_side = 1U << halvings_at_once;
 
 /// What a cell of the square is on a curve that is turned, one of four ways.
-struct Step {
+struct CurveStep {
     std::uint8_t position = 0;
     std::uint8_t turn = 0;  // of the curve within the cell
 };
@@ -29,9 +30,9 @@ struct Step {
 constexpr std::uint32_t is_swapped = 1;   // the columns are rows
 constexpr std::uint32_t is_mirrored = 2;  // both are counted from the end, after that
 
-constexpr Step step_of(std::uint32_t column, std::uint32_t row, std::uint32_t turn) {
+constexpr CurveStep step_of(std::uint32_t column, std::uint32_t row, std::uint32_t turn) {
     std::uint32_t position = 0;
-    for (std::uint32_t bit = side / 2; bit > 0; bit /= 2) {
+    for (std::uint32_t bit = table_side / 2; bit > 0; bit /= 2) {
         const bool swapped = (turn & is_swapped) != 0;
         const bool mirrored = (turn & is_mirrored) != 0;
         const std::uint32_t right = (((swapped ? row : column) & bit) != 0) != mirrored ? 1 : 0;
@@ -43,19 +44,20 @@ constexpr Step step_of(std::uint32_t column, std::uint32_t row, std::uint32_t tu
     return {static_cast<std::uint8_t>(position), static_cast<std::uint8_t>(turn)};
 }
 
-using Steps = std::array<Step, std::size_t{4} * side * side>;
+using CurveSteps = std::array<CurveStep, std::size_t{4} * table_side * table_side>;
 
-constexpr Steps steps = [] {
-    Steps all{};
+constexpr CurveSteps step_table = [] {
+    CurveSteps all{};
     for (std::uint32_t i = 0; i < all.size(); ++i) {
-        all[i] = step_of(i / side % side, i % side, i / (side * side));
+        all[i] =
+            step_of(i / table_side % table_side, i % table_side, i / (table_side * table_side));
     }
     return all;
 }();
 
 }  // namespace
 
-HilbertCurve::HilbertCurve(const geometry::Extent& box, std::uint32_t halvings)
+HilbertCurve::HilbertCurve(const Extent& box, std::uint32_t halvings)
     : box_(box),
       halvings_(halvings),
       cells_(1U << halvings),
@@ -69,8 +71,9 @@ std::uint32_t HilbertCurve::at(double x, double y) const {
     std::uint32_t turn = 0;
     for (std::uint32_t shift = halvings_; shift > 0;) {
         shift -= halvings_at_once;
-        const std::uint32_t cell = ((column >> shift) % side) * side + (row >> shift) % side;
-        const Step& step = steps[turn * side * side + cell];
+        const std::uint32_t cell =
+            ((column >> shift) % table_side) * table_side + (row >> shift) % table_side;
+        const CurveStep& step = step_table[turn * table_side * table_side + cell];
         position = position << (2 * halvings_at_once) | step.position;
         turn = step.turn;
     }
@@ -78,16 +81,28 @@ std::uint32_t HilbertCurve::at(double x, double y) const {
 }
 
 std::span<const std::uint32_t> HilbertOrder::sort_positions() {
-    begins_.assign((1U << (2 * halvings)) + 1, 0);
-    for (const std::uint32_t position : positions_) {
-        ++begins_[position + 1];
-    }
-    std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
     order_.resize(positions_.size());
-    for (std::uint32_t i = 0; i < positions_.size(); ++i) {
-        order_[begins_[positions_[i]]++] = i;
-    }
+    std::iota(order_.begin(), order_.end(), 0U);
+    sort_by_byte(0);
+    sort_by_byte(1);
     return order_;
 }
 
-}  // namespace nearfield::world
+/// One stable counting-sort pass: places with the same byte keep their order.
+void HilbertOrder::sort_by_byte(std::uint32_t byte) {
+    const auto byte_of = [&](std::uint32_t place) -> std::size_t {
+        return std::uint32_t{positions_[place]} >> (8U * byte) & 0xffU;
+    };
+    std::array<std::uint32_t, 257> begin{};
+    for (const std::uint32_t place : order_) {
+        ++begin[byte_of(place) + 1];
+    }
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    others_.resize(order_.size());
+    for (const std::uint32_t place : order_) {
+        others_[begin[byte_of(place)]++] = place;
+    }
+    order_.swap(others_);
+}
+
+}  // namespace nearfield::geometry

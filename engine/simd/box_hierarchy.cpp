@@ -1,16 +1,15 @@
-#include <engine/world/box_hierarchy.hpp>
-#include <engine/world/hilbert_curve.hpp>
+#include <engine/geometry/hilbert_curve.hpp>
+#include <engine/simd/box_hierarchy.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-namespace nearfield::world {
+namespace nearfield::simd {
 namespace {
 
 using geometry::Box;
-using simd::Extent;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Extent nothing{infinity, infinity, -infinity, -infinity};
@@ -107,7 +106,7 @@ double BoxHierarchy::size_of_node(std::uint32_t node) const {
 }
 
 void BoxHierarchy::join(std::size_t level, std::uint32_t node) {
-    set_box(level + 1, node, simd::kernels::join_boxes(levels_[level][node].boxes(), 0));
+    set_box(level + 1, node, kernels::join_boxes(levels_[level][node].boxes(), 0));
 }
 
 void BoxHierarchy::refit(std::uint32_t leaf) {
@@ -131,7 +130,7 @@ void BoxHierarchy::build() {
                    std::max(all.high_x, box.high_x), std::max(all.high_y, box.high_y)};
         }
     }
-    const HilbertCurve curve(all);
+    const geometry::HilbertCurve curve(all);
     leaves_.assign(boxes_.size(), nowhere);
     on_curve_.clear();
     for (std::uint32_t name = 0; name < boxes_.size(); ++name) {
@@ -143,7 +142,7 @@ void BoxHierarchy::build() {
     }
     std::sort(on_curve_.begin(), on_curve_.end());
     // Room for as much as a quarter more, so that additions do not start over each time.
-    const auto leaves = static_cast<std::uint32_t>(simd::padded(count + count / 4 + fan_out));
+    const auto leaves = static_cast<std::uint32_t>(padded(count + count / 4 + fan_out));
     names_.assign(leaves, nowhere);
     free_.clear();
     free_.reserve(leaves);  // so that removing never fails
@@ -151,7 +150,7 @@ void BoxHierarchy::build() {
         free_.push_back(leaf);
     }
     std::size_t level = 0;
-    for (std::uint32_t nodes = leaves / fan_out;; nodes = simd::AabbTree::boxes_over(nodes)) {
+    for (std::uint32_t nodes = leaves / fan_out;; nodes = AabbTree::boxes_over(nodes)) {
         if (level == levels_.size()) {
             levels_.emplace_back();
         }
@@ -192,4 +191,4 @@ std::size_t BoxHierarchy::bytes() const {
     return bytes;
 }
 
-}  // namespace nearfield::world
+}  // namespace nearfield::simd
