@@ -123,9 +123,13 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_overlappin
                                                      plan::number(reach) +
                                                      "; it must be a finite number of at least 0");
     }
-    bounds_origins_.resize(std::max(bounds_origins_.size(), instances.size()));
-    bounds_.resize(bounds_origins_.size());
-    for (std::size_t i = 0; i < instances.size(); ++i) {
+    for (std::size_t i = instances.size(); i < bounds_.size(); ++i) {
+        boxes_.remove(static_cast<std::uint32_t>(i));
+    }
+    bounds_origins_.resize(instances.size());
+    bounds_.resize(instances.size());
+    double max_rounding = 0.0;
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
         const geometry::Polygon* const polygon = shapes_.find(instances[i].shape);
         Status status = polygon == nullptr
                             ? shapes_.errors().unknown("its shape", instances[i].shape)
@@ -136,14 +140,27 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_overlappin
         }
         if (const BoundsOrigin origin{polygon, polygon->revision(), instances[i].pose};
             !(bounds_origins_[i] == origin)) {
-            bounds_origins_[i] = origin;
             bounds_[i] = localize::bounds_of({*polygon, instances[i].pose});
+            boxes_.set(i, bounds_[i].box);
+            bounds_origins_[i] = origin;
         }
+        max_rounding = std::max(max_rounding, bounds_[i].rounding);
     }
-    broad_phase_.find(std::span(bounds_).first(instances.size()), reach, near_pairs_);
+    boxes_.prepare();
     instance_pairs_.clear();
-    for (const auto& [first, second] : near_pairs_) {
-        instance_pairs_.push_back({first, second});
+    // Slightly more than the margin of any pair, for the rounding of what is compared below.
+    const double margin = reach * (1.0 + 1e-9) + 3.0 * max_rounding;
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+        const auto before = static_cast<std::ptrdiff_t>(instance_pairs_.size());
+        boxes_.for_meeting(geometry::grown(bounds_[i].box, margin), [&](std::uint32_t other) {
+            if (i < other && localize::may_meet(bounds_[i], bounds_[other], reach)) {
+                instance_pairs_.push_back({i, other});
+            }
+        });
+        std::sort(instance_pairs_.begin() + before, instance_pairs_.end(),
+                  [](const InstancePair& one, const InstancePair& other) {
+                      return one.second < other.second;
+                  });
     }
     return std::span<const InstancePair>(instance_pairs_);
 }

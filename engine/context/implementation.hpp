@@ -7,8 +7,9 @@
 #include <engine/geometry/gathered_rings.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
-#include <engine/localize/broad_phase.hpp>
+#include <engine/localize/hierarchy.hpp>
 #include <engine/render/renderer.hpp>
+#include <engine/simd/box_hierarchy.hpp>
 #include <nearfield/context.hpp>
 #ifdef NEARFIELD_SHADER_RELOAD
 #include <engine/reload/shader_reload.hpp>
@@ -145,11 +146,10 @@ private:
     const Settings settings_;
     batch::ShapeStore shapes_;
     geometry::GatheredRings gathered_rings_;
-    localize::BroadPhase broad_phase_;
     // Of the instances of find_overlapping_boxes(), by position; they stay while their origins do.
     std::vector<localize::Bounds> bounds_;
     std::vector<BoundsOrigin> bounds_origins_;
-    std::vector<localize::BroadPhase::Pair> near_pairs_;
+    simd::BoxHierarchy boxes_;
     std::vector<InstancePair> instance_pairs_;
     std::unique_ptr<Machinery> machinery_;
 #ifdef NEARFIELD_SHADER_RELOAD
