@@ -46,8 +46,4 @@ void Containment::cross_levels(std::span<const Vector> ring) {
     }
 }
 
-bool Containment::any_inside() const {
-    return std::find(inside_.begin(), inside_.end(), 1) != inside_.end();
-}
-
 }  // namespace nearfield::geometry

@@ -19,7 +19,6 @@ public:
     /// Answers for all points added.
     void answer(const TransformedPolygon& placed);
     [[nodiscard]] bool inside(std::size_t index) const { return inside_[index] != 0; }
-    [[nodiscard]] bool any_inside() const;
 
 private:
     struct Level {

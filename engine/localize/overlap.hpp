@@ -21,12 +21,6 @@ struct Chain {
 struct Effort {
     std::uint64_t nodes_evaluated = 0;  ///< bounding volumes computed
     std::uint64_t pairs_rejected = 0;   ///< pairs of bounding volumes found disjoint
-
-    Effort& operator+=(const Effort& other) {
-        nodes_evaluated += other.nodes_evaluated;
-        pairs_rejected += other.pairs_rejected;
-        return *this;
-    }
 };
 
 struct OverlapOptions {
@@ -59,15 +53,6 @@ Effort chains_in_each_other(const geometry::TransformedPolygon& a,
 Effort chains_near_boundary(const geometry::TransformedPolygon& a,
                             const geometry::TransformedPolygon& b, const OverlapOptions& options,
                             std::vector<Chain>& chains);
-
-/// True if the closed shapes share a point: their boundaries intersect (touching counts, and so
-/// does a gap within the rounding of the transformed vertices), or one shape contains the other.
-/// Uses the same hierarchy, down to a few edges, and returns as soon as the answer is known. Adds
-/// the work done to `effort` if that is not null.
-[[nodiscard]] bool intersects(const geometry::TransformedPolygon& a,
-                              const geometry::TransformedPolygon& b,
-                              BoundingVolume volume = BoundingVolume::axis_aligned,
-                              Effort* effort = nullptr);
 
 /// Joins boxes into fewer: always those that overlap, others if the joint box is hardly larger than
 /// the two. The resulting boxes are disjoint and cover the given ones. In place.

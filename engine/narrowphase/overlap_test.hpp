@@ -5,11 +5,10 @@
 
 namespace nearfield::narrowphase {
 
-/// Tests whether two closed shapes share a point, as localize::intersects does: their boundaries
-/// intersect (touching counts, and so does a gap within the rounding of the transformed vertices),
-/// or one shape contains the other. Uses brute force for two small shapes and AABB trees otherwise.
-/// Precondition: unless both are small, both are complete if their boxes intersect. Reuses its
-/// memory between pairs.
+/// Tests whether two closed shapes share a point: their boundaries intersect (touching counts, and
+/// so does a gap within the rounding of the transformed vertices), or one shape contains the other.
+/// Uses brute force for two small shapes and AABB trees otherwise. Precondition: unless both are
+/// small, both are complete if their boxes intersect. Reuses its memory between pairs.
 class OverlapTest {
 public:
     [[nodiscard]] bool intersect(const simd::TransformedEdges& a, const simd::TransformedEdges& b);

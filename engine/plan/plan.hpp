@@ -172,7 +172,6 @@ struct Plan {
     /// By position in the batch, where a device answers, followed by the other directions of some
     /// queries.
     std::vector<PlannedQuery> queries;
-    BoundingVolume bounding_volume{};     ///< that hierarchies are made of
     std::vector<std::uint32_t> resident;  ///< queries whose results stay on the device as well
     std::vector<SearchedQuery> searched;
     /// Contact queries with gradient normals.

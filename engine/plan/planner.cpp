@@ -31,7 +31,6 @@ void Planner::plan_all(std::span<const CheckedQuery> queries, MemoryBudget& memo
                        std::vector<AnyResult>& results) {
     plan.clear();
     targets_.clear();
-    plan.bounding_volume = limits_.bounding_volume;
     plan.queries.resize(results.size());
     for (const CheckedQuery& checked : queries) {
         checkpoint();

@@ -1,5 +1,6 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/plan/point_planner.hpp>
 #include <engine/plan/point_search.hpp>
 #include <engine/plan/region.hpp>
@@ -284,13 +285,8 @@ void PointPlanner::plan_closest(bool both_ways, CurrentQuery& current, ResultSum
     if (!check_numbers(planned, result)) {
         return;
     }
-    find_chains(current.plan, result, chains_[0], [&] {
-        localize::Effort effort;
-        result.intersects = localize::intersects(TransformedPolygon(*planned.a, planned.pose_a),
-                                                 TransformedPolygon(*planned.b, planned.pose_b),
-                                                 current.limits.bounding_volume, &effort);
-        return effort;
-    });
+    tested_.clear();
+    result.intersects = intersect(planned, tested_, overlap_test_);
     if (result.intersects) {
         return;  // at distance 0: nothing to render
     }

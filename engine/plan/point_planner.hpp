@@ -2,6 +2,7 @@
 
 #include <engine/geometry/recently_placed.hpp>
 #include <engine/localize/closest.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
 #include <engine/plan/current_query.hpp>
 #include <engine/plan/point_tiles.hpp>
 #include <engine/plan/regions.hpp>
@@ -45,6 +46,8 @@ private:
     void add_samples(std::uint32_t direction, const geometry::Box& within, CurrentQuery& current);
 
     geometry::RecentlyPlaced instances_{1024};  // whose points the device searches
+    simd::TransformedInstances tested_;
+    narrowphase::OverlapTest overlap_test_;
     localize::ClosestChains closest_;
     std::array<std::vector<localize::Chain>, 2> chains_;  // A and B
     Regions regions_;

@@ -45,9 +45,9 @@ void PointResolver::begin(const plan::PlannedQuery& query, const QueryPoints& po
     if (!points.found.empty()) {
         take(points.found);
     }
-    a_ = recent_.place(*query.a, query.pose_a);
+    a_.emplace(*query.a, query.pose_a);
     positions_.emplace(*a_);
-    b_ = recent_.place(*query.b, query.pose_b);
+    b_.emplace(*query.b, query.pose_b);
     boundary_is_set_ = false;
     points_.clear();
     next_ = 0;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <engine/base/interruption.hpp>
-#include <engine/geometry/recently_placed.hpp>
 #include <engine/narrowphase/boundary.hpp>
 #include <engine/narrowphase/located_points.hpp>
 #include <engine/plan/plan.hpp>
@@ -139,7 +138,6 @@ private:
     std::span<const plan::Tile> tiles_;
     std::vector<plan::PlannedPoint> places_of_found_;
     std::vector<std::uint32_t> words_of_found_;
-    geometry::RecentlyPlaced recent_{64};
     std::optional<geometry::TransformedPolygon> a_;
     std::optional<geometry::TransformedPolygon> b_;
     std::optional<plan::BoundaryPositions> positions_;  // of points of A

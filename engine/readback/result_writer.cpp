@@ -1,9 +1,8 @@
 #include <engine/base/interruption.hpp>
-#include <engine/localize/overlap.hpp>
 #include <engine/plan/empty_result.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/plan/query_timer.hpp>
 #include <engine/readback/result_writer.hpp>
-#include <engine/solvers/placed_pair.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -44,19 +43,8 @@ void take_summary(const PenetrationSummary& summary, PenetrationResult& result) 
 
 }  // namespace
 
-/// Adds the effort to the result's statistics if the test uses hierarchies.
-bool ResultWriter::shapes_intersect(const Input& input, ResultSummary& result) {
-    const PlannedQuery& query = input.planned;
-    if (query.has_points_of(plan::PointSource::device)) {
-        return solvers::intersect(query, instances_, overlap_test_);
-    }
-    localize::Effort effort;
-    const bool answer = localize::intersects(TransformedPolygon(*query.a, query.pose_a),
-                                             TransformedPolygon(*query.b, query.pose_b),
-                                             input.plan.bounding_volume, &effort);
-    result.localization.nodes_evaluated += effort.nodes_evaluated;
-    result.localization.pairs_rejected += effort.pairs_rejected;
-    return answer;
+bool ResultWriter::shapes_intersect(const Input& input) {
+    return plan::intersect(input.planned, instances_, overlap_test_);
 }
 
 void ResultWriter::write(const Input& input, PenetrationResult& result) {
@@ -71,7 +59,7 @@ void ResultWriter::write(const Input& input, PenetrationResult& result) {
     } else {
         take_summary(resolver_.summarize_penetration(result.tolerance), result);
     }
-    result.intersects = result.count > 0 || shapes_intersect(input, result);
+    result.intersects = result.count > 0 || shapes_intersect(input);
 }
 
 /// Of the resolver's points.
@@ -100,18 +88,18 @@ void ResultWriter::write_searched(const Input& input, PenetrationResult& result)
     }
     const bool is_known = searched_ != nullptr && plan::is_reverse(*searched_, planned);
     result.intersects =
-        result.count > 0 || (is_known ? searched_intersect_ : shapes_intersect(input, result));
+        result.count > 0 || (is_known ? searched_intersect_ : shapes_intersect(input));
     searched_ = &planned;
     searched_intersect_ = result.intersects;
 }
 
 void ResultWriter::write(const Input& input, IntersectionResult& result) {
     result.area = static_cast<double>(result.count) * result.cell * result.cell;
-    result.intersects = shapes_intersect(input, result);
+    result.intersects = shapes_intersect(input);
 }
 
 void ResultWriter::write(const Input& input, DistanceFieldResult& result) {
-    result.intersects = input.planned.a != nullptr && shapes_intersect(input, result);
+    result.intersects = input.planned.a != nullptr && shapes_intersect(input);
     input.answers.fields().finish(input.planned, result);
 }
 
@@ -126,13 +114,13 @@ void ResultWriter::write(const Input& input, ContactResult& result) {
             result.cell, found_contacts_);
         found_contacts_.write(*planned.a, *planned.b, query, result);
     }
-    result.intersects = shapes_intersect(input, result);
+    result.intersects = shapes_intersect(input);
 }
 
 void ResultWriter::write(const Input& input, SeparationResult& result) {
     const PlannedQuery& planned = input.planned;
-    const solvers::PlacedPair pair = solvers::place_pair(planned, instances_);
-    solvers::complete(pair, instances_);
+    const plan::PlacedPair pair = plan::place_pair(planned, instances_);
+    plan::complete(pair, instances_);
     double sampled = std::numeric_limits<double>::infinity();
     if (!result.intersects) {
         sampled = sampled_distance(input.plan, planned, input.answers);

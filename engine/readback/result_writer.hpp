@@ -35,7 +35,7 @@ private:
     };
 
     /// Whether the shapes of a query share a point.
-    [[nodiscard]] bool shapes_intersect(const Input& input, ResultSummary& result);
+    [[nodiscard]] bool shapes_intersect(const Input& input);
     void write(const Input& input, PenetrationResult& result);
     void write_searched(const Input& input, PenetrationResult& result);
     void list_penetrations(PenetrationResult& result);

@@ -1,7 +1,7 @@
 #include <engine/base/interruption.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/records/nearest_feature.hpp>
 #include <engine/solvers/closest_points.hpp>
-#include <engine/solvers/placed_pair.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ void ClosestSolver::answer_apart(const CheckedQuery& query, const simd::Transfor
 void ClosestSolver::answer(const CheckedQuery& query, Workspace& workspace,
                            SeparationResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const PlacedPair pair = place_pair(query, instances);
+    const plan::PlacedPair pair = place_pair(query, instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {

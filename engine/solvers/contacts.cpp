@@ -1,10 +1,10 @@
 #include <engine/base/interruption.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/plan/region.hpp>
 #include <engine/records/nearest_feature.hpp>
 #include <engine/solvers/contacts.hpp>
-#include <engine/solvers/placed_pair.hpp>
 
 #include <utility>
 
@@ -16,7 +16,7 @@ using geometry::Vector;
 void ContactSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
                            ContactResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const PlacedPair pair = place_pair(query, instances);
+    const plan::PlacedPair pair = place_pair(query, instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {

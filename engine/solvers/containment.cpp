@@ -1,7 +1,7 @@
 #include <engine/geometry/segment.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/records/nearest_feature.hpp>
 #include <engine/solvers/containment.hpp>
-#include <engine/solvers/placed_pair.hpp>
 
 #include <cmath>
 #include <limits>
@@ -36,7 +36,7 @@ void ContainmentSolver::write_clearance(const TransformedEdges& a, const Transfo
 void ContainmentSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
                                ContainmentResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const PlacedPair pair = place_pair(query, instances);
+    const plan::PlacedPair pair = place_pair(query, instances);
     complete_if_near(pair, instances);
     const TransformedEdges& a = instances[pair.a];
     const TransformedEdges& b = instances[pair.b];

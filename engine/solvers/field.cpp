@@ -1,11 +1,11 @@
 #include <engine/base/interruption.hpp>
 #include <engine/plan/empty_result.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/plan/tile_edges.hpp>
 #include <engine/records/field_features.hpp>
 #include <engine/records/field_reconstruction.hpp>
 #include <engine/records/nearest_feature.hpp>
 #include <engine/solvers/field.hpp>
-#include <engine/solvers/placed_pair.hpp>
 
 #include <shaders/layout.h>
 

@@ -2,9 +2,9 @@
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
 #include <engine/plan/overlap_boundary.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/records/intersection_samples.hpp>
 #include <engine/solvers/overlap_samples.hpp>
-#include <engine/solvers/placed_pair.hpp>
 
 #include <algorithm>
 #include <bit>

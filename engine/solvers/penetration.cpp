@@ -1,10 +1,10 @@
 #include <engine/base/interruption.hpp>
 #include <engine/narrowphase/brute_force.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/plan/region.hpp>
 #include <engine/records/nearest_feature.hpp>
 #include <engine/solvers/penetration.hpp>
-#include <engine/solvers/placed_pair.hpp>
 
 #include <cmath>
 #include <utility>
@@ -17,9 +17,9 @@ using simd::TransformedEdges;
 void PenetrationSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
                                PenetrationResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const PlacedPair pair = plan::is_reverse(before_, query)
-                                ? PlacedPair{before_.placed.b, before_.placed.a}
-                                : place_pair(query, instances);
+    const plan::PlacedPair pair = plan::is_reverse(before_, query)
+                                      ? plan::PlacedPair{before_.placed.b, before_.placed.a}
+                                      : place_pair(query, instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {

@@ -4,10 +4,10 @@
 #include <engine/narrowphase/deepest_point.hpp>
 #include <engine/narrowphase/nearest_points.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/simd/point_list.hpp>
 #include <engine/simd/transformed_edges.hpp>
 #include <engine/solvers/inside_samples.hpp>
-#include <engine/solvers/placed_pair.hpp>
 #include <engine/solvers/workspace.hpp>
 #include <nearfield/result.hpp>
 
@@ -38,8 +38,8 @@ private:
     /// the answer to whether the shapes intersect.
     struct Before : plan::ShapePair {
         bool intersects = false;
-        bool is_sampled = false;  // the crossings were found
-        PlacedPair placed{};      // of a workspace
+        bool is_sampled = false;    // the crossings were found
+        plan::PlacedPair placed{};  // of a workspace
     };
 
     /// Throws StatusException (too_large) if there may be more points than the batch has memory

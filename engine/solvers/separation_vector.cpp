@@ -1,4 +1,4 @@
-#include <engine/solvers/placed_pair.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/solvers/separation_vector.hpp>
 
 #include <utility>
@@ -8,7 +8,7 @@ namespace nearfield::solvers {
 void SeparationVectorSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
                                     SeparationVectorResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const PlacedPair pair = place_pair(query, instances);
+    const plan::PlacedPair pair = place_pair(query, instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {

@@ -2,7 +2,7 @@
 
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/pair_search.hpp>
-#include <engine/solvers/placed_pair.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/device_pairs.hpp>
 
@@ -162,7 +162,7 @@ bool DevicePairs::do_intersect(const plan::PairRowData& data) {
         return true;
     }
     edges_.clear();
-    return solvers::intersect(plan_pair(data), edges_, overlap_test_);
+    return plan::intersect(plan_pair(data), edges_, overlap_test_);
 }
 
 void DevicePairs::row(std::uint32_t index, PairRow<ContactQuery>& row) {

@@ -6,7 +6,7 @@
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/pair_search.hpp>
-#include <engine/solvers/placed_pair.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/device_pairs.hpp>
 #include <nearfield/portable_math.hpp>
@@ -113,8 +113,8 @@ bool DevicePairs::do_share_a_point(const plan::PairRowData& pair) {
     const Instance& a = instances_[pair.a].instance;
     const Instance& b = instances_[pair.b].instance;
     edges_.clear();
-    return solvers::intersect({polygon_of(a.shape), polygon_of(b.shape), a.pose, b.pose}, edges_,
-                              overlap_test_);
+    return plan::intersect({polygon_of(a.shape), polygon_of(b.shape), a.pose, b.pose}, edges_,
+                           overlap_test_);
 }
 
 /// Answers the undecided rows.

@@ -68,17 +68,14 @@ TEST(Containment, AgreesWithARayOnALattice) {
             }
         }
         containment.answer(placed);
-        bool any = false;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const bool expected = is_inside(rings, points[i]);
-            any = any || expected;
             inside += expected ? 1 : 0;
             ASSERT_EQ(containment.inside(i), expected)
                 << points[i].transpose() << " in round " << round;
             ASSERT_EQ(contains(placed, points[i]), expected)
                 << points[i].transpose() << " in round " << round;
         }
-        ASSERT_EQ(containment.any_inside(), any);
     }
     EXPECT_GT(inside, 10000);
 }

@@ -1,7 +1,7 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/solvers/contacts.hpp>
-#include <engine/solvers/placed_pair.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/unit/solvers/test_workspace.hpp>
@@ -75,7 +75,7 @@ TEST(PointContacts, AreAllSamplesOfBothBoundariesThatAreNear) {
                 contacts.answer(checked, workspace, result);
                 ASSERT_TRUE(result.status.ok()) << result.status.text();
 
-                const solvers::PlacedPair pair = solvers::place_pair(checked, instances);
+                const plan::PlacedPair pair = plan::place_pair(checked, instances);
                 complete(pair, instances);
                 const simd::TransformedEdges& transformed_a = instances[pair.a];
                 const simd::TransformedEdges& transformed_b = instances[pair.b];

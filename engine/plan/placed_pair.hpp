@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace nearfield::solvers {
+namespace nearfield::plan {
 
 /// The shapes of a query in their places, by their indices in TransformedInstances.
 struct PlacedPair {
@@ -17,7 +17,7 @@ struct PlacedPair {
     std::uint32_t b = 0;
 };
 
-[[nodiscard]] inline PlacedPair place_pair(const plan::ShapePair& shapes,
+[[nodiscard]] inline PlacedPair place_pair(const ShapePair& shapes,
                                            simd::TransformedInstances& instances) {
     const std::uint32_t a = instances.place(*shapes.a, shapes.pose_a);
     return {a, instances.place(*shapes.b, shapes.pose_b)};
@@ -39,8 +39,7 @@ inline void complete_if_near(const PlacedPair& pair, simd::TransformedInstances&
 }
 
 /// Whether the shapes share a point.
-[[nodiscard]] inline bool intersect(const plan::ShapePair& shapes,
-                                    simd::TransformedInstances& instances,
+[[nodiscard]] inline bool intersect(const ShapePair& shapes, simd::TransformedInstances& instances,
                                     narrowphase::OverlapTest& overlap_test) {
     const PlacedPair pair = place_pair(shapes, instances);
     complete_if_near(pair, instances);
@@ -48,14 +47,14 @@ inline void complete_if_near(const PlacedPair& pair, simd::TransformedInstances&
 }
 
 /// Whether deviations and coordinates permit the tolerance.
-[[nodiscard]] inline Status check_numbers(const plan::CheckedQuery& query,
+[[nodiscard]] inline Status check_numbers(const CheckedQuery& query,
                                           const simd::TransformedEdges& a,
                                           const simd::TransformedEdges& b, double tolerance) {
-    if (Status status = plan::check_deviations(tolerance, query.deviations, query.budget.bound);
+    if (Status status = check_deviations(tolerance, query.deviations, query.budget.bound);
         !status.ok()) {
         return status;
     }
-    return plan::check_resolution(tolerance, std::max(a.magnitude, b.magnitude));
+    return check_resolution(tolerance, std::max(a.magnitude, b.magnitude));
 }
 
-}  // namespace nearfield::solvers
+}  // namespace nearfield::plan

@@ -1,5 +1,5 @@
 #include <engine/geometry/segment.hpp>
-#include <engine/localize/overlap.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/unit/support/shape_samples.hpp>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace nearfield::localize {
+namespace nearfield::narrowphase {
 namespace {
 
 using geometry::Polygon;
@@ -42,7 +42,23 @@ bool intersect_by_force(const TransformedPolygon& a, const TransformedPolygon& b
     return any_inside(a, b) || any_inside(b, a);
 }
 
-TEST(Intersects, AgreesWithBruteForce) {
+/// By trees, and by brute force where that is for both shapes.
+bool intersects(const TransformedPolygon& a, const TransformedPolygon& b) {
+    static simd::TransformedInstances instances;
+    static OverlapTest test;
+    instances.clear();
+    const std::uint32_t index_a = instances.place(a);
+    const std::uint32_t index_b = instances.place(b);
+    const bool are_small = is_small(instances[index_a]) && is_small(instances[index_b]);
+    const bool by_force = are_small && test.intersect(instances[index_a], instances[index_b]);
+    instances.complete(index_a);
+    instances.complete(index_b);
+    const bool answer = test.intersect(instances[index_a], instances[index_b]);
+    EXPECT_TRUE(!are_small || by_force == answer);
+    return answer;
+}
+
+TEST(OverlapTest, AgreesWithBruteForce) {
     samples::Random random(1);
     const std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
     int together = 0;
@@ -66,9 +82,6 @@ TEST(Intersects, AgreesWithBruteForce) {
                 EXPECT_EQ(intersects(transformed_a, transformed_b), expected) << what;
                 EXPECT_EQ(intersects(transformed_b, transformed_a), expected)
                     << what << ", swapped";
-                EXPECT_EQ(intersects(transformed_a, transformed_b, BoundingVolume::oriented),
-                          expected)
-                    << what << ", oriented";
             }
         }
     }
@@ -84,11 +97,10 @@ bool intersect(const samples::Rings& rings_a, const samples::Rings& rings_b,
     const TransformedPolygon transformed_b(b, pose_b);
     const bool answer = intersects(transformed_a, transformed_b);
     EXPECT_EQ(intersects(transformed_b, transformed_a), answer);
-    EXPECT_EQ(intersects(transformed_a, transformed_b, BoundingVolume::oriented), answer);
     return answer;
 }
 
-TEST(Intersects, TouchingCounts) {
+TEST(OverlapTest, TouchingCounts) {
     const samples::Rings square{samples::rectangle(0.0, 0.0, 1.0, 1.0)};
     EXPECT_TRUE(intersect(square, {samples::rectangle(1.0, 0.25, 2.0, 0.75)})) << "along an edge";
     EXPECT_TRUE(intersect(square, {samples::rectangle(1.0, 1.0, 2.0, 2.0)})) << "at a corner";
@@ -97,7 +109,7 @@ TEST(Intersects, TouchingCounts) {
     EXPECT_FALSE(intersect(square, {samples::rectangle(1.0 + 1e-9, 0.0, 2.0, 1.0)}));
 }
 
-TEST(Intersects, TouchingCountsWhereRoundingBlursIt) {
+TEST(OverlapTest, TouchingCountsWhereRoundingBlursIt) {
     // In exact arithmetic each pair shares a line or a corner; the transformed vertices are
     // rounded.
     samples::Random random(2);
@@ -109,11 +121,9 @@ TEST(Intersects, TouchingCountsWhereRoundingBlursIt) {
         const double angle = random.between(0.0, 6.0);
         const Vector2 at{scale * random.between(-9.0, 9.0), scale * random.between(-9.0, 9.0)};
         const Vector2 beside{at.x + side * std::cos(angle), at.y + side * std::sin(angle)};
-        for (const auto volume : {BoundingVolume::axis_aligned, BoundingVolume::oriented}) {
-            EXPECT_TRUE(intersects(TransformedPolygon(polygon, {at, angle}),
-                                   TransformedPolygon(polygon, {beside, angle}), volume))
-                << round;
-        }
+        EXPECT_TRUE(intersects(TransformedPolygon(polygon, {at, angle}),
+                               TransformedPolygon(polygon, {beside, angle})))
+            << round;
         const double gap = side + 1e-12 * scale;
         const Vector2 off{at.x + gap * std::cos(angle), at.y + gap * std::sin(angle)};
         EXPECT_FALSE(intersects(TransformedPolygon(polygon, {at, angle}),
@@ -122,7 +132,7 @@ TEST(Intersects, TouchingCountsWhereRoundingBlursIt) {
     }
 }
 
-TEST(Intersects, ContainmentCountsAndHolesDoNot) {
+TEST(OverlapTest, ContainmentCountsAndHolesDoNot) {
     const Ring outer = samples::rectangle(0.0, 0.0, 10.0, 10.0);
     const Ring hole = samples::rectangle(1.0, 1.0, 9.0, 9.0);
     const Ring island = samples::rectangle(4.0, 4.0, 6.0, 6.0);
@@ -143,7 +153,7 @@ TEST(Intersects, ContainmentCountsAndHolesDoNot) {
         << "a ring with a hole in a hole";
 }
 
-TEST(Intersects, InterlockedCombsThatDoNotTouch) {
+TEST(OverlapTest, InterlockedCombsThatDoNotTouch) {
     // The teeth of one in the gaps of the other: boxes of long chains overlap everywhere.
     const std::uint32_t teeth = 200;
     const Polygon comb = samples::polygon({samples::comb(teeth)});
@@ -156,10 +166,9 @@ TEST(Intersects, InterlockedCombsThatDoNotTouch) {
             const TransformedPolygon b(comb, {{to.x(), to.y()}, turn + std::numbers::pi});
             EXPECT_EQ(intersects(a, b), intersect_by_force(a, b)) << turn << ", " << touching;
             EXPECT_EQ(intersects(a, b), touching) << turn;
-            EXPECT_EQ(intersects(a, b, BoundingVolume::oriented), touching) << turn;
         }
     }
 }
 
 }  // namespace
-}  // namespace nearfield::localize
+}  // namespace nearfield::narrowphase
