@@ -107,15 +107,18 @@ gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPa
 }  // namespace
 
 Executor::Executor(const gpu::Device& device, const Graph& graph, BakedGraph baked)
-    : device_(&device), baked_(std::move(baked)) {
+    : device_(&device), baked_(std::move(baked)), imported_(graph.resources().size()) {
     create_images(graph);
     allocate_memory(graph);
     create_views(graph);
     create_graphics(graph);
+    std::size_t most = baked_.to_host.size();
     for (const BakedPass& pass : baked_.passes) {
-        calls_.push_back(make_call(graph, pass.barriers));
+        most = std::max(most, pass.barriers.size());
     }
-    calls_.push_back(make_call(graph, baked_.to_host));
+    memory_barriers_.reserve(most);
+    image_barriers_.reserve(most);
+    buffer_barriers_.reserve(most);
 }
 
 void Executor::create_images(const Graph& graph) {
@@ -200,20 +203,31 @@ void Executor::create_graphics(const Graph& graph) {
     }
 }
 
-Executor::BarrierCall Executor::make_call(const Graph& graph,
-                                          const std::vector<Barrier>& barriers) const {
-    BarrierCall call;
-    for (const Barrier& barrier : barriers) {
-        const Resource& resource = graph.resources()[barrier.resource];
-        // An image barrier makes available only writes through its own image.
-        if (barrier.takes_over_memory) {
-            call.memory.push_back({.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                   .pNext = nullptr,
-                                   .srcAccessMask = barrier.source_access,
-                                   .dstAccessMask = barrier.destination_access});
-        }
-        if (resource.is_image) {
-            call.images.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+VkImageView Executor::sampled_view(Handle handle) const {
+    return images_[handle.resource].sampled_view.get();
+}
+
+void Executor::add(const Resource& resource, const Barrier& declared) {
+    const Imported& imported = imported_[declared.resource];
+    const VkImage own = images_[declared.resource].image.get();
+    const VkImage image = own != VK_NULL_HANDLE ? own : imported.image.image;
+    if (resource.is_image ? image == VK_NULL_HANDLE : imported.buffer.buffer == VK_NULL_HANDLE) {
+        throw StatusException(graph_error((resource.is_image ? "image '" : "buffer '") +
+                                          resource.name() +
+                                          "' was not set before the graph was executed"));
+    }
+    const Barrier barrier =
+        with_uses(declared, resource.is_image ? imported.image.uses : imported.buffer.uses,
+                  device_->queue_flags());
+    // An image barrier makes available only writes through its own image.
+    if (barrier.takes_over_memory) {
+        memory_barriers_.push_back({.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                    .pNext = nullptr,
+                                    .srcAccessMask = barrier.source_access,
+                                    .dstAccessMask = barrier.destination_access});
+    }
+    if (resource.is_image) {
+        image_barriers_.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
                                    .pNext = nullptr,
                                    .srcAccessMask = barrier.source_access,
                                    .dstAccessMask = barrier.destination_access,
@@ -221,118 +235,51 @@ Executor::BarrierCall Executor::make_call(const Graph& graph,
                                    .newLayout = barrier.new_layout,
                                    .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                   .image = images_[barrier.resource].image.get(),
-                                   .subresourceRange = {all_aspects(resource), 0, 1, 0, 1}});
-            call.image_barriers.push_back({barrier, barrier});
-        } else {
-            call.buffers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
+                                   .image = image,
+                                   .subresourceRange = {all_aspects(resource), imported.image.level,
+                                                        1, imported.image.layer, 1}});
+    } else {
+        buffer_barriers_.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
                                     .pNext = nullptr,
                                     .srcAccessMask = barrier.source_access,
                                     .dstAccessMask = barrier.destination_access,
                                     .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                     .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                    .buffer = VK_NULL_HANDLE,
-                                    .offset = 0,
-                                    .size = VK_WHOLE_SIZE});
-            call.buffer_barriers.push_back({barrier, barrier});
-        }
+                                    .buffer = imported.buffer.buffer,
+                                    .offset = imported.buffer.offset,
+                                    .size = imported.buffer.size});
     }
-    add_up_stages(call);
-    return call;
-}
-
-void Executor::add_up_stages(BarrierCall& call) {
-    call.source_stages = call.destination_stages = 0;
-    for (const auto* const barriers : {&call.image_barriers, &call.buffer_barriers}) {
-        for (const PlacedBarrier& placed : *barriers) {
-            call.source_stages |= placed.effective.source_stages;
-            call.destination_stages |= placed.effective.destination_stages;
-        }
-    }
-}
-
-template <class VulkanBarrier, class Set>
-void Executor::set_imported(Handle handle, const std::optional<ExternalUses>& uses,
-                            std::vector<VulkanBarrier> BarrierCall::*barriers,
-                            std::vector<PlacedBarrier> BarrierCall::*placed, const Set& set) {
-    for (BarrierCall& call : calls_) {
-        bool changes_stages = false;
-        for (std::size_t i = 0; i < (call.*barriers).size(); ++i) {
-            PlacedBarrier& one = (call.*placed)[i];
-            if (one.declared.resource != handle.resource) {
-                continue;
-            }
-            one.effective = with_uses(one.declared, uses, device_->queue_flags());
-            VulkanBarrier& barrier = (call.*barriers)[i];
-            barrier.srcAccessMask = one.effective.source_access;
-            barrier.dstAccessMask = one.effective.destination_access;
-            set(barrier, one.effective);
-            changes_stages = true;
-        }
-        if (changes_stages) {
-            add_up_stages(call);
-        }
-    }
-}
-
-void Executor::set_buffer(Handle handle, const ImportedBuffer& imported) {
-    set_imported(handle, imported.uses, &BarrierCall::buffers, &BarrierCall::buffer_barriers,
-                 [&](VkBufferMemoryBarrier& barrier, const Barrier&) {
-                     barrier.buffer = imported.buffer;
-                     barrier.offset = imported.offset;
-                     barrier.size = imported.size;
-                 });
-}
-
-void Executor::set_image(Handle handle, const ImportedImage& imported) {
-    set_imported(handle, imported.uses, &BarrierCall::images, &BarrierCall::image_barriers,
-                 [&](VkImageMemoryBarrier& barrier, const Barrier& effective) {
-                     barrier.oldLayout = effective.old_layout;
-                     barrier.newLayout = effective.new_layout;
-                     barrier.image = imported.image;
-                     barrier.subresourceRange.baseMipLevel = imported.level;
-                     barrier.subresourceRange.baseArrayLayer = imported.layer;
-                 });
-}
-
-VkImageView Executor::sampled_view(Handle handle) const {
-    return images_[handle.resource].sampled_view.get();
+    source_stages_ |= barrier.source_stages;
+    destination_stages_ |= barrier.destination_stages;
 }
 
 void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
-                               const BarrierCall& call) const {
-    for (std::size_t i = 0; i < call.buffers.size(); ++i) {
-        if (call.buffers[i].buffer == VK_NULL_HANDLE) {
-            throw StatusException(graph_error(
-                "buffer '" + graph.resources()[call.buffer_barriers[i].declared.resource].name() +
-                "' was not set before the graph was executed"));
-        }
-    }
-    for (std::size_t i = 0; i < call.images.size(); ++i) {
-        if (call.images[i].image == VK_NULL_HANDLE) {
-            throw StatusException(graph_error(
-                "image '" + graph.resources()[call.image_barriers[i].declared.resource].name() +
-                "' was not set before the graph was executed"));
-        }
-    }
-    if (call.source_stages == 0) {
+                               const std::vector<Barrier>& barriers) {
+    if (barriers.empty()) {
         return;
     }
+    memory_barriers_.clear();
+    image_barriers_.clear();
+    buffer_barriers_.clear();
+    source_stages_ = destination_stages_ = 0;
+    for (const Barrier& barrier : barriers) {
+        add(graph.resources()[barrier.resource], barrier);
+    }
     device_->functions().vkCmdPipelineBarrier(
-        commands, call.source_stages, call.destination_stages, 0,
-        static_cast<std::uint32_t>(call.memory.size()), call.memory.data(),
-        static_cast<std::uint32_t>(call.buffers.size()), call.buffers.data(),
-        static_cast<std::uint32_t>(call.images.size()), call.images.data());
+        commands, source_stages_, destination_stages_, 0,
+        static_cast<std::uint32_t>(memory_barriers_.size()), memory_barriers_.data(),
+        static_cast<std::uint32_t>(buffer_barriers_.size()), buffer_barriers_.data(),
+        static_cast<std::uint32_t>(image_barriers_.size()), image_barriers_.data());
 }
 
 void Executor::execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                       const std::function<void(std::size_t, VkCommandBuffer)>& record) const {
+                       const std::function<void(std::size_t, VkCommandBuffer)>& record) {
     for (std::size_t position = 0; position < baked_.passes.size(); ++position) {
         const BakedPass& baked = baked_.passes[position];
         const Pass& pass = graph.passes()[baked.pass];
         device_->begin_label(commands, pass.name.c_str());
         timestamps.begin(commands, pass.name.c_str());
-        record_barriers(graph, commands, calls_[position]);
+        record_barriers(graph, commands, baked.barriers);
         if (pass.kind == PassKind::graphics) {
             VkRenderPassBeginInfo info{};
             info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
@@ -348,7 +295,7 @@ void Executor::execute(const Graph& graph, VkCommandBuffer commands, gpu::Timest
         timestamps.end(commands);
         device_->end_label(commands);
     }
-    record_barriers(graph, commands, calls_.back());
+    record_barriers(graph, commands, baked_.to_host);
 }
 
 std::unique_ptr<Executor> make_executor(const gpu::Device& device, const Graph& graph) {

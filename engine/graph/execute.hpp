@@ -63,9 +63,13 @@ public:
     /// Sets the buffer behind an imported handle, which may change from frame to frame since
     /// buffers grow. All must be set before the first execution.
     void set_buffer(Handle handle, VkBuffer buffer) { set_buffer(handle, ImportedBuffer{buffer}); }
-    void set_buffer(Handle handle, const ImportedBuffer& imported);
+    void set_buffer(Handle handle, const ImportedBuffer& imported) {
+        imported_[handle.resource].buffer = imported;
+    }
     /// The same for the image behind an imported handle.
-    void set_image(Handle handle, const ImportedImage& imported);
+    void set_image(Handle handle, const ImportedImage& imported) {
+        imported_[handle.resource].image = imported;
+    }
 
     /// The view that a compute shader samples: of the colour or depth aspect.
     [[nodiscard]] VkImageView sampled_view(Handle handle) const;
@@ -78,7 +82,7 @@ public:
     /// Executions that share these images may be in progress at the same time on one queue; their
     /// buffers must differ.
     void execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                 const std::function<void(std::size_t, VkCommandBuffer)>& record) const;
+                 const std::function<void(std::size_t, VkCommandBuffer)>& record);
 
     [[nodiscard]] const BakedGraph& baked() const { return baked_; }
 
@@ -93,43 +97,33 @@ private:
         gpu::Owned<VkFramebuffer> framebuffer;
     };
 
-    /// A barrier as declared, and as it is with the uses that the caller stated.
-    struct PlacedBarrier {
-        Barrier declared;
-        Barrier effective;
-    };
-    /// The arguments of a vkCmdPipelineBarrier, filled in ahead of execution.
-    struct BarrierCall {
-        VkPipelineStageFlags source_stages = 0;
-        VkPipelineStageFlags destination_stages = 0;
-        std::vector<VkMemoryBarrier> memory;
-        std::vector<VkImageMemoryBarrier> images;
-        std::vector<VkBufferMemoryBarrier> buffers;
-        std::vector<PlacedBarrier> image_barriers;   // by position in `images`
-        std::vector<PlacedBarrier> buffer_barriers;  // by position in `buffers`
+    /// What is behind a handle, if it is imported.
+    struct Imported {
+        ImportedBuffer buffer;
+        ImportedImage image;
     };
 
     void create_images(const Graph& graph);
     void allocate_memory(const Graph& graph);
     void create_views(const Graph& graph);
     void create_graphics(const Graph& graph);
-    [[nodiscard]] BarrierCall make_call(const Graph& graph,
-                                        const std::vector<Barrier>& barriers) const;
-    static void add_up_stages(BarrierCall& call);
-    /// Sets the accesses of an imported resource's barriers, and by `set` the rest of each.
-    template <class VulkanBarrier, class Set>
-    void set_imported(Handle handle, const std::optional<ExternalUses>& uses,
-                      std::vector<VulkanBarrier> BarrierCall::*barriers,
-                      std::vector<PlacedBarrier> BarrierCall::*placed, const Set& set);
+    /// Adds a barrier to those of the next call.
+    void add(const Resource& resource, const Barrier& declared);
     void record_barriers(const Graph& graph, VkCommandBuffer commands,
-                         const BarrierCall& call) const;
+                         const std::vector<Barrier>& barriers);
 
     const gpu::Device* device_;
     BakedGraph baked_;
     std::vector<gpu::DeviceMemory> memory_;  // by memory slot
     std::vector<Image> images_;              // by resource
     std::vector<GraphicsPass> graphics_;     // by position in baked_.passes
-    std::vector<BarrierCall> calls_;  // by position in baked_.passes; last, the one to the host
+    std::vector<Imported> imported_;         // by resource
+    // Of the next vkCmdPipelineBarrier; memory for most.
+    std::vector<VkMemoryBarrier> memory_barriers_;
+    std::vector<VkImageMemoryBarrier> image_barriers_;
+    std::vector<VkBufferMemoryBarrier> buffer_barriers_;
+    VkPipelineStageFlags source_stages_ = 0;
+    VkPipelineStageFlags destination_stages_ = 0;
     std::uint64_t image_bytes_ = 0;
 };
 

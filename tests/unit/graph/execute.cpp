@@ -143,7 +143,7 @@ TEST_F(GraphExecute, ImagesThatShareASlotShareItsBytes) {
 TEST_F(GraphExecute, BufferThatWasNotSetIsNamed) {
     const gpu::Device device(host_.device());
     const TwoImages two;
-    const Executor executor(device, two.graph, two.baked());
+    Executor executor(device, two.graph, two.baked());
     gpu::Submission submission(device);
     gpu::Timestamps timestamps(device, 4);
     VkCommandBuffer commands = submission.begin();
