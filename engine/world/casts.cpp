@@ -2,6 +2,7 @@
 
 #include <engine/context/call_within.hpp>
 #include <engine/localize/hierarchy.hpp>
+#include <engine/plan/checked_query.hpp>
 #include <engine/toi/swept_box.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/world_state.hpp>
@@ -15,9 +16,8 @@ namespace {
 
 using geometry::number;
 
-/// So that the lists of their candidates stay small.
-constexpr std::size_t sweeps_at_a_time = std::size_t{1} << 12U;
-constexpr std::size_t queries_at_a_time = 1024;
+/// The number of sweeps that a job takes at a time: each may come near many instances.
+constexpr std::size_t sweeps_of_part = 8;
 
 void require_query(const ShapeCastQuery& query) {
     if (!(query.tolerance > 0.0 && query.tolerance <= largest_coordinate)) {
@@ -38,18 +38,15 @@ ShapeCastHit hit_of(const TimeOfImpactResult& result, InstanceHandle instance) {
 
 }  // namespace
 
-/// One call of cast_shape(): times of impact with the instances that each sweep comes near, asked
-/// of the context a batch at a time.
+/// One call of cast_shape(): times of impact with the instances that each sweep comes near.
 struct World::State::Casts {
-    State& world;
+    const world::Instances& all;
     const ShapeCastQuery& query;
     const WorldFilter& filter;
     const geometry::Polygon& polygon;
-    std::span<ShapeCastHit> hits;
 
     /// Appends the instances that a sweep may touch, in any order.
     void find_candidates(const Sweep& sweep, std::vector<std::uint32_t>& found) const {
-        const world::Instances& all = world.instances;
         const geometry::Box box = geometry::grown(toi::swept_box({polygon, sweep.start, sweep.end}),
                                                   query.contact_distance);
         all.boxes().for_meeting(geometry::grown(box, all.max_rounding()), [&](std::uint32_t index) {
@@ -61,67 +58,58 @@ struct World::State::Casts {
         });
     }
 
-    void add_candidate(const Sweep& sweep, std::size_t number, std::uint32_t index) {
+    /// The time of impact of a sweep with an instance, until the job's next one.
+    [[nodiscard]] const TimeOfImpactResult& answer(const Sweep& sweep, std::uint32_t index,
+                                                   Job& job) const {
         TimeOfImpactQuery impact;
         impact.a = {query.shape, sweep.start};
         impact.end_a = sweep.end;
-        impact.b = world.instance_of(index);
+        impact.b = {all[index].shape, all[index].pose};
         impact.end_b = impact.b.pose;
         impact.tolerance = query.tolerance;
+        impact.technique = Technique::cpu;
         impact.contact_distance = query.contact_distance;
-        world.batch.add(impact);
-        world.candidates.push_back({number, index});
+        const AnyQuery any = impact;
+        plan::CheckedQuery checked;
+        if (plan::check(0, any, {&polygon, &all.polygon(index)}, {}, plan::Submissions::any,
+                        checked, job.result)) {
+            auto& result = std::get<TimeOfImpactResult>(job.result);
+            job.impacts.answer(checked, job.workspace, result);
+        }
+        return std::get<TimeOfImpactResult>(job.result);
     }
 
-    void take(const TimeOfImpactResult& result, const Candidate& candidate) {
-        if (!result.status.ok()) {
-            throw StatusException({result.status.code(), "cast_shape: sweep " +
-                                                             std::to_string(candidate.number) +
-                                                             ": " + result.status.message()});
-        }
-        ShapeCastHit& hit = hits[candidate.number];
+    /// Makes the hit one with this instance, if that is touched first.
+    void take(const TimeOfImpactResult& result, std::uint32_t index, ShapeCastHit& hit) const {
         if (result.state == ImpactState::separated) {
             return;
         }
         // A hit can have time 0 too, but what is touched at the start is touched before.
         const auto order = [&](ImpactState state, double time, std::uint32_t instance) {
             return std::tuple(time, state != ImpactState::intersecting_at_start,
-                              world.instances.number(instance));
+                              all.number(instance));
         };
         const bool is_first = hit.state == ImpactState::separated ||
-                              order(result.state, result.time, candidate.instance) <
+                              order(result.state, result.time, index) <
                                   order(hit.state, hit.time, hit.instance.index);
         if (is_first) {
-            hit = hit_of(result, world.instances.handle(candidate.instance));
+            hit = hit_of(result, all.handle(index));
         }
     }
 
-    void answer_candidates() {
-        world.run_batch();
-        for (std::size_t i = 0; i < world.candidates.size(); ++i) {
-            take(*std::get_if<TimeOfImpactResult>(&world.results.results[i]), world.candidates[i]);
-        }
-        world.batch.clear();
-        world.candidates.clear();
-    }
-
-    /// `first`: the number of the first of them.
-    void cast(std::span<const Sweep> sweeps, std::size_t first) {
-        const std::vector<std::uint32_t>& offsets = world.candidate_offsets;
-        world.candidate_lists.write(
-            world.jobs, sweeps.size(), world.candidate_offsets, world.candidates_of_sweeps,
-            [&](std::uint32_t /*job*/, std::size_t i, std::vector<std::uint32_t>& found) {
-                find_candidates(sweeps[i], found);
-            });
-        world.batch.clear();
-        world.candidates.clear();
-        for (std::size_t i = 0; i < sweeps.size(); ++i) {
-            for (std::uint32_t k = offsets[i]; k < offsets[i + 1]; ++k) {
-                add_candidate(sweeps[i], first + i, world.candidates_of_sweeps[k]);
+    /// `number`: of the sweep.
+    void cast(const Sweep& sweep, std::size_t number, Job& job, ShapeCastHit& hit) const {
+        job.found.clear();
+        find_candidates(sweep, job.found);
+        for (const std::uint32_t index : job.found) {
+            checkpoint();
+            const TimeOfImpactResult& result = answer(sweep, index, job);
+            if (!result.status.ok()) {
+                throw StatusException({result.status.code(), "cast_shape: sweep " +
+                                                                 std::to_string(number) + ": " +
+                                                                 result.status.message()});
             }
-            if (world.candidates.size() >= queries_at_a_time || i + 1 == sweeps.size()) {
-                answer_candidates();
-            }
+            take(result, index, hit);
         }
     }
 };
@@ -139,11 +127,15 @@ Status World::cast_shape(const ShapeCastQuery& query, std::span<const Sweep> swe
         require_query(query);
         state_->prepare(options.filter, "cast_shape");
         std::fill(hits.begin(), hits.end(), ShapeCastHit{});
-        State::Casts casts{*state_, query, options.filter, polygon, hits};
-        for (std::size_t first = 0; first < sweeps.size(); first += sweeps_at_a_time) {
-            const std::size_t count = std::min(sweeps_at_a_time, sweeps.size() - first);
-            casts.cast(sweeps.subspan(first, count), first);
-        }
+        const State::Casts casts{state_->instances, query, options.filter, polygon};
+        expect_answers(sweeps.size());
+        state_->jobs.divide(sweeps.size(), sweeps_of_part,
+                            [&](std::uint32_t job, std::size_t first, std::size_t end) {
+                                for (std::size_t i = first; i < end; ++i) {
+                                    casts.cast(sweeps[i], i, state_->scratch[job], hits[i]);
+                                }
+                                finish_answers(end - first);
+                            });
     });
 }
 

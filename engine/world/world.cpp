@@ -29,14 +29,6 @@ const geometry::Polygon& World::State::shape(ShapeHandle handle, const char* cal
     return *polygon;
 }
 
-void World::State::run_batch() {
-    Status status = context->unless_lost([&] { context->ring().run(batch, results); });
-    if (!status.ok()) {
-        throw StatusException(status);
-    }
-    checkpoint();  // what was cut must not look whole
-}
-
 World::World(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
 World::World(Context& context) noexcept
     : state_(std::make_unique<State>(*context.implementation_)) {}
@@ -114,15 +106,9 @@ void World::trim() noexcept {
     for (State::Job& job : state.scratch) {
         job = State::Job();
     }
-    state.batch = {};
-    state.results = {};
-    state.candidates = {};
     state.hilbert_order = {};
     state.ray_lists = {};
     state.instance_lists = {};
-    state.candidate_lists = {};
-    state.candidate_offsets = {};
-    state.candidates_of_sweeps = {};
     state.rays = {};
     state.points = {};
     state.poses = {};

@@ -4,7 +4,7 @@
 #include <engine/base/jobs.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/geometry/hilbert_curve.hpp>
-#include <engine/narrowphase/overlap_test.hpp>
+#include <engine/solvers/time_of_impact.hpp>
 #include <engine/world/instances.hpp>
 #include <engine/world/job_lists.hpp>
 #include <engine/world/nearest_queries.hpp>
@@ -33,13 +33,10 @@ struct World::State {
         world::NearestQueries nearest;
         world::ShapeEdgeQueries edges;
         world::RayQueries rays;
-        narrowphase::OverlapTest overlap_test;
         std::vector<std::uint32_t> found;
-    };
-    /// What a query of the batch is about: a sweep by its number, and an instance.
-    struct Candidate {
-        std::size_t number;
-        std::uint32_t instance;
+        solvers::TimeOfImpactSolver impacts;
+        solvers::Workspace workspace;
+        AnyResult result;
     };
 
     explicit State(Context::Implementation& of);
@@ -49,13 +46,8 @@ struct World::State {
     /// The same for a call, whose filter has to be one of this world.
     void prepare(const WorldFilter& filter, const char* call);
     [[nodiscard]] const geometry::Polygon& shape(ShapeHandle handle, const char* call) const;
-    [[nodiscard]] Instance instance_of(std::uint32_t index) const {
-        return {instances[index].shape, instances[index].pose};
-    }
     /// As tables of pairs see it.
     [[nodiscard]] WorldView view() { return {*context, identity, instances}; }
-    /// Answers the queries of the batch.
-    void run_batch();
     /// Divides poses of a shape among the jobs: calls answer(job, placed, i) with the shape at pose
     /// i. Defined in poses.cpp.
     template <class Answer>
@@ -80,15 +72,8 @@ struct World::State {
     Jobs jobs;
     std::vector<Job> scratch;  // by job
     geometry::HilbertOrder hilbert_order;
-    Batch batch;  // of shape casts
-    Results results;
-    std::vector<Candidate> candidates;  // by query of the batch
     JobLists<RayHit> ray_lists;
     JobLists<InstanceHandle> instance_lists;
-    // Of shape casts: the instances that each of some sweeps may touch.
-    JobLists<std::uint32_t> candidate_lists;
-    std::vector<std::uint32_t> candidate_offsets;
-    std::vector<std::uint32_t> candidates_of_sweeps;
     // Of calls that the device answers at once.
     WorldRequest rays;
     WorldRequest points;
