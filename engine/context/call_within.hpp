@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace nearfield {
 
@@ -31,7 +32,18 @@ auto call_within(const Limits& limits, const Action& action) -> decltype(action(
     return action();
 }
 
-/// The same for an action that throws, as catch_to_status().
+/// Returns what an action does, or the error that it throws, as catch_to_status().
+template <class Action>
+auto catch_to_expected(Action&& action) noexcept -> Expected<decltype(action())> {
+    std::optional<decltype(action())> value;
+    Status status = catch_to_status([&] { value.emplace(action()); });
+    if (!status.ok()) {
+        return status;
+    }
+    return std::move(*value);
+}
+
+/// As call_within(), for an action that throws, as catch_to_status().
 template <class Action>
 Status catch_within(const Limits& limits, const Action& action) {
     return call_within(limits, [&] { return catch_to_status(action); });

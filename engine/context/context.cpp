@@ -32,43 +32,28 @@ Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 
 Expected<Context> Context::create(const HostDevice& host, const Settings& settings) {
-    std::unique_ptr<Implementation> implementation;
-    Status status = catch_to_status([&] {
+    return catch_to_expected([&] {
         check_structure(host);
         check_structure(settings);
-        implementation = std::make_unique<Implementation>(nullptr, host, settings);
+        return Context(std::make_unique<Implementation>(nullptr, host, settings));
     });
-    if (!status.ok()) {
-        return status;
-    }
-    return Context(std::move(implementation));
 }
 
 Expected<Context> Context::create_headless(const HeadlessOptions& options,
                                            const Settings& settings) {
-    std::unique_ptr<Implementation> implementation;
-    Status status = catch_to_status([&] {
+    return catch_to_expected([&] {
         check_structure(settings);
         auto own = std::make_unique<gpu::HeadlessDevice>(options);
         const HostDevice host = own->host();
-        implementation = std::make_unique<Implementation>(std::move(own), host, settings);
+        return Context(std::make_unique<Implementation>(std::move(own), host, settings));
     });
-    if (!status.ok()) {
-        return status;
-    }
-    return Context(std::move(implementation));
 }
 
 Expected<Context> Context::create_cpu(const Settings& settings) {
-    std::unique_ptr<Implementation> implementation;
-    Status status = catch_to_status([&] {
+    return catch_to_expected([&] {
         check_structure(settings);
-        implementation = std::make_unique<Implementation>(settings);
+        return Context(std::make_unique<Implementation>(settings));
     });
-    if (!status.ok()) {
-        return status;
-    }
-    return Context(std::move(implementation));
 }
 
 AddedShape Context::add_shape(std::span<const Ring> rings, double deviation) {
@@ -77,10 +62,8 @@ AddedShape Context::add_shape(std::span<const Ring> rings, double deviation) {
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation) {
-    Status result;
-    Status status = implementation_->unless_lost(
-        [&] { result = implementation_->shapes().update(shape, rings, deviation); });
-    return status.ok() ? result : status;
+    return implementation_->unless_lost(
+        [&] { return implementation_->shapes().update(shape, rings, deviation); });
 }
 
 AddedShape Context::add_shape(std::span<const RingView> rings, double deviation) {
@@ -89,11 +72,9 @@ AddedShape Context::add_shape(std::span<const RingView> rings, double deviation)
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const RingView> rings, double deviation) {
-    Status result;
-    Status status = implementation_->unless_lost([&] {
-        result = implementation_->shapes().update(shape, implementation_->gather(rings), deviation);
+    return implementation_->unless_lost([&] {
+        return implementation_->shapes().update(shape, implementation_->gather(rings), deviation);
     });
-    return status.ok() ? result : status;
 }
 
 AddedShape Context::add_shape(std::span<const Ring> rings, FillRule rule, double deviation) {
@@ -111,18 +92,13 @@ Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, Fil
 }
 
 Status Context::remove_shape(ShapeHandle shape) {
-    Status result;
-    Status status =
-        implementation_->unless_lost([&] { result = implementation_->shapes().remove(shape); });
-    return status.ok() ? result : status;
+    return implementation_->unless_lost([&] { return implementation_->shapes().remove(shape); });
 }
 
 Expected<std::span<const InstancePair>> Context::find_overlapping_boxes(
     std::span<const Instance> instances, double reach) {
-    Expected<std::span<const InstancePair>> pairs = std::span<const InstancePair>();
-    Status status = implementation_->unless_lost(
-        [&] { pairs = implementation_->find_overlapping_boxes(instances, reach); });
-    return status.ok() ? pairs : Expected<std::span<const InstancePair>>(status);
+    return implementation_->unless_lost(
+        [&] { return implementation_->find_overlapping_boxes(instances, reach); });
 }
 
 Status Context::run(const Batch& batch, Results& results, const Limits& limits) {
@@ -137,17 +113,15 @@ Expected<Ticket> Context::submit(const Batch& batch, const Limits& limits) {
 
 Expected<Ticket> Context::submit(const Batch& batch, const Submission& submission,
                                  const Limits& limits) {
-    return call_within(limits, [&]() -> Expected<Ticket> {
-        Ticket ticket;
-        Status status = implementation_->unless_lost([&] {
+    return call_within(limits, [&] {
+        return implementation_->unless_lost([&] {
             if (const gpu::Device* const device = implementation_->device(); device != nullptr) {
                 gpu::check_semaphores(*device, submission);
             } else if (!submission.waits.empty() || !submission.signals.empty()) {
                 throw StatusException(no_device("submit with semaphores"));
             }
-            ticket = implementation_->ring().submit(batch, submission);
+            return implementation_->ring().submit(batch, submission);
         });
-        return status.ok() ? Expected<Ticket>(ticket) : status;
     });
 }
 
@@ -157,10 +131,8 @@ Expected<Ticket> Context::record(const Batch& batch, const Recording& recording,
         if (implementation_->device() == nullptr) {
             return no_device("record");
         }
-        Ticket ticket;
-        Status status = implementation_->unless_lost(
-            [&] { ticket = implementation_->ring().record(batch, recording); });
-        return status.ok() ? Expected<Ticket>(ticket) : status;
+        return implementation_->unless_lost(
+            [&] { return implementation_->ring().record(batch, recording); });
     });
 }
 
@@ -184,39 +156,47 @@ Status Context::collect(Ticket ticket, Results& results, const Limits& limits) {
 }
 
 Expected<FieldOnDevice> Context::on_device(Ticket ticket, QueryHandle<DistanceFieldQuery> query) {
-    return implementation_->on_device<FieldOnDevice>(ticket, query);
+    return implementation_->unless_lost(
+        [&] { return implementation_->ring().on_device(ticket, query); });
 }
 
 Expected<PointsOnDevice> Context::on_device(Ticket ticket, QueryHandle<PenetrationQuery> query) {
-    return implementation_->on_device<PointsOnDevice>(ticket, query);
+    return implementation_->unless_lost(
+        [&] { return implementation_->ring().on_device(ticket, query); });
 }
 
 Expected<PointsOnDevice> Context::on_device(Ticket ticket, QueryHandle<ContactQuery> query) {
-    return implementation_->on_device<PointsOnDevice>(ticket, query);
+    return implementation_->unless_lost(
+        [&] { return implementation_->ring().on_device(ticket, query); });
 }
 
 Expected<SamplesOnDevice> Context::on_device(Ticket ticket, QueryHandle<IntersectionQuery> query) {
-    return implementation_->on_device<SamplesOnDevice>(ticket, query);
+    return implementation_->unless_lost(
+        [&] { return implementation_->ring().on_device(ticket, query); });
 }
 
 Expected<std::vector<FieldOnDevice>> Context::layout_on_device(
     const Batch& batch, QueryHandle<DistanceFieldQuery> query) {
-    return implementation_->layout_on_device<FieldOnDevice>(batch, query);
+    return implementation_->unless_lost(
+        [&] { return implementation_->ring().layout_on_device(batch, query); });
 }
 
 Expected<std::vector<PointsOnDevice>> Context::layout_on_device(
     const Batch& batch, QueryHandle<PenetrationQuery> query) {
-    return implementation_->layout_on_device<PointsOnDevice>(batch, query);
+    return implementation_->unless_lost(
+        [&] { return implementation_->ring().layout_on_device(batch, query); });
 }
 
 Expected<std::vector<PointsOnDevice>> Context::layout_on_device(const Batch& batch,
                                                                 QueryHandle<ContactQuery> query) {
-    return implementation_->layout_on_device<PointsOnDevice>(batch, query);
+    return implementation_->unless_lost(
+        [&] { return implementation_->ring().layout_on_device(batch, query); });
 }
 
 Expected<std::vector<SamplesOnDevice>> Context::layout_on_device(
     const Batch& batch, QueryHandle<IntersectionQuery> query) {
-    return implementation_->layout_on_device<SamplesOnDevice>(batch, query);
+    return implementation_->unless_lost(
+        [&] { return implementation_->ring().layout_on_device(batch, query); });
 }
 
 void Context::trim() noexcept {

@@ -116,12 +116,12 @@ std::unique_ptr<Context::Implementation::Machinery> Context::Implementation::mak
     return std::make_unique<Machinery>(device_.get(), settings_, shapes_);
 }
 
-Expected<std::span<const InstancePair>> Context::Implementation::find_overlapping_boxes(
+std::span<const InstancePair> Context::Implementation::find_overlapping_boxes(
     std::span<const Instance> instances, double reach) {
     if (!(reach >= 0.0 && reach <= largest_coordinate)) {
-        return Status(StatusCode::invalid_query, "find_overlapping_boxes: the reach is " +
-                                                     plan::number(reach) +
-                                                     "; it must be a finite number of at least 0");
+        throw StatusException({StatusCode::invalid_query,
+                               "find_overlapping_boxes: the reach is " + plan::number(reach) +
+                                   "; it must be a finite number of at least 0"});
     }
     for (std::size_t i = instances.size(); i < bounds_.size(); ++i) {
         boxes_.remove(static_cast<std::uint32_t>(i));
@@ -135,8 +135,8 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_overlappin
                             ? shapes_.errors().unknown("its shape", instances[i].shape)
                             : plan::check_pose(instances[i].pose, "the instance");
         if (!status.ok()) {
-            return Status(status.code(), "find_overlapping_boxes: instance " + std::to_string(i) +
-                                             ": " + status.message());
+            throw StatusException({status.code(), "find_overlapping_boxes: instance " +
+                                                      std::to_string(i) + ": " + status.message()});
         }
         if (const BoundsOrigin origin{polygon, polygon->revision(), instances[i].pose};
             !(bounds_origins_[i] == origin)) {
@@ -162,7 +162,7 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_overlappin
                       return one.second < other.second;
                   });
     }
-    return std::span<const InstancePair>(instance_pairs_);
+    return instance_pairs_;
 }
 
 #ifdef NEARFIELD_SHADER_RELOAD

@@ -20,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -60,26 +61,12 @@ public:
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
 
-    Expected<std::span<const InstancePair>> find_overlapping_boxes(
+    /// As the public function; throws.
+    [[nodiscard]] std::span<const InstancePair> find_overlapping_boxes(
         std::span<const Instance> instances, double reach);
     /// Whether what was recorded for the host's frame need not be waited for.
     [[nodiscard]] bool is_complete(std::uint64_t frame) const {
         return lost_ || machinery_->ring.is_complete(frame);
-    }
-
-    template <class Output, class Query>
-    Expected<Output> on_device(Ticket ticket, QueryHandle<Query> query) {
-        Output result;
-        Status status = unless_lost([&] { result = machinery_->ring.on_device(ticket, query); });
-        return status.ok() ? Expected<Output>(result) : status;
-    }
-
-    template <class Output, class Query>
-    Expected<std::vector<Output>> layout_on_device(const Batch& batch, QueryHandle<Query> query) {
-        std::vector<Output> layout;
-        Status status =
-            unless_lost([&] { layout = machinery_->ring.layout_on_device(batch, query); });
-        return status.ok() ? Expected<std::vector<Output>>(std::move(layout)) : status;
     }
 
     [[nodiscard]] const batch::BatchRing& ring() const { return machinery_->ring; }
@@ -91,11 +78,11 @@ public:
     template <class Add>
     AddedShape add_shape(const Add& add) {
         Expected<ShapeHandle> handle = ShapeHandle{};
-        Status status = unless_lost([&] { handle = add(); });
-        if (status.ok() && handle.has_value()) {
+        Status why = unless_lost([&] { handle = add(); });
+        if (why.ok() && handle.has_value()) {
             return *handle;
         }
-        const Status why = status.ok() ? handle.error() : status;
+        why = why.ok() ? handle.error() : why;
         ShapeHandle refused{UINT32_MAX, 0, shapes_.errors().context()};
         // Where memory runs out, the handle stands for a refusal without words.
         static_cast<void>(catch_to_status([&] { refused = shapes_.refuse(why); }).ok());
@@ -117,9 +104,31 @@ public:
 
     [[nodiscard]] bool is_lost() const { return lost_; }
     [[nodiscard]] const Status& lost_device() const { return lost_device_; }
-    /// Runs an action unless the device is lost; records the loss of the device.
+    /// Runs an action unless the device is lost; records the loss of the device. Returns what the
+    /// action does, or the error: a Status, or an Expected of other values.
     template <class Action>
-    Status unless_lost(Action&& action) noexcept {
+    auto unless_lost(Action&& action) noexcept {
+        using Value = decltype(action());
+        if constexpr (std::is_void_v<Value>) {
+            return run_unless_lost(action);
+        } else {
+            Value value{};
+            Status status = run_unless_lost([&] { value = action(); });
+            if constexpr (std::is_same_v<Value, Status>) {
+                return status.ok() ? value : status;
+            } else {
+                return status.ok() ? Expected<Value>(std::move(value)) : Expected<Value>(status);
+            }
+        }
+    }
+
+#ifdef NEARFIELD_SHADER_RELOAD
+    std::uint32_t reload_shaders(const char* folder);
+#endif
+
+private:
+    template <class Action>
+    Status run_unless_lost(Action&& action) noexcept {
         if (lost_) {
             return lost_device_;
         }
@@ -131,12 +140,6 @@ public:
         }
         return status;
     }
-
-#ifdef NEARFIELD_SHADER_RELOAD
-    std::uint32_t reload_shaders(const char* folder);
-#endif
-
-private:
     [[nodiscard]] std::unique_ptr<Machinery> make_machinery();
     void report_open_frames() const noexcept;
 

@@ -37,25 +37,18 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 Expected<World> World::create(Context& context) {
-    std::unique_ptr<State> state;
-    Status status =
-        catch_to_status([&] { state = std::make_unique<State>(*context.implementation_); });
-    if (!status.ok()) {
-        return status;
-    }
-    return World(std::move(state));
+    return catch_to_expected(
+        [&] { return World(std::make_unique<State>(*context.implementation_)); });
 }
 
 Expected<InstanceHandle> World::add(const WorldInstance& instance) {
-    InstanceHandle handle;
-    Status status = catch_to_status([&] {
+    return catch_to_expected([&] {
         static_cast<void>(state_->shape(instance.shape, "add"));
         if (Status bad_pose = plan::check_pose(instance.pose, "the instance"); !bad_pose.ok()) {
             refuse("add", bad_pose.message());
         }
-        handle = state_->instances.add(instance);
+        return state_->instances.add(instance);
     });
-    return status.ok() ? Expected<InstanceHandle>(handle) : status;
 }
 
 Status World::move(InstanceHandle instance, const Pose& pose) {
@@ -84,12 +77,10 @@ Status World::remove(InstanceHandle instance) {
 }
 
 Expected<WorldInstance> World::instance(InstanceHandle instance) const {
-    WorldInstance found;
-    Status status = catch_to_status([&] {
+    return catch_to_expected([&] {
         const world::Instances& all = state_->instances;
-        found = all[all.find(instance, "instance")];
+        return all[all.find(instance, "instance")];
     });
-    return status.ok() ? Expected<WorldInstance>(found) : status;
 }
 
 std::uint32_t World::size() const noexcept {
