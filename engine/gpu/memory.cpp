@@ -1,4 +1,4 @@
-#include <engine/gpu/host_memory.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/memory.hpp>
 
 #include <algorithm>
@@ -15,14 +15,27 @@ struct MemoryBlock {
     };
 
     /// With memory for its first piece, so that no new block stays without one.
-    MemoryBlock() { pieces.reserve(1); }
+    explicit MemoryBlock(const Device& of) : device(of) { pieces.reserve(1); }
+    ~MemoryBlock() {
+        device.memory_count().remove(bytes);
+        if (given) {
+            device.host_memory()->free(device.host_memory()->user, &*given);
+        }
+    }
+    MemoryBlock(const MemoryBlock&) = delete;
+    MemoryBlock& operator=(const MemoryBlock&) = delete;
 
+    void count(std::uint64_t all) {
+        bytes = all;
+        device.memory_count().add(bytes);
+    }
+
+    const Device& device;
     Owned<VkDeviceMemory> own;
-    std::optional<HostMemory> given;  // instead, where the host has an allocator
+    std::optional<MemoryAllocation> given;  // instead, where the host has an allocator
     VkDeviceMemory memory = VK_NULL_HANDLE;
     std::uint64_t start = 0;  // of the block in its memory
-    CountedBytes counted;
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = 0;  // counted
     std::uint32_t type = 0;
     MemoryKind kind{};
     VkMemoryPropertyFlags flags = 0;
@@ -46,6 +59,57 @@ const char* name_of(MemoryKind kind) {
             return "nearfield memory of images";
     }
     return "";
+}
+
+/// The contradiction between the host's answer and the request; empty if there is none.
+std::string contradiction(const MemoryAllocation& given, const MemoryRequest& request) {
+    const VkMemoryRequirements& needs = request.requirements;
+    if (given.memory == VK_NULL_HANDLE) {
+        return "memory is null";
+    }
+    if (given.memory_type >= VK_MAX_MEMORY_TYPES ||
+        ((needs.memoryTypeBits >> given.memory_type) & 1U) == 0) {
+        return "memory_type is " + std::to_string(given.memory_type) +
+               ", which is not among the allowed types " + std::to_string(needs.memoryTypeBits) +
+               " (bit mask)";
+    }
+    if (given.offset % needs.alignment != 0) {
+        return "offset is " + std::to_string(given.offset) +
+               ", which is not a multiple of the alignment " + std::to_string(needs.alignment);
+    }
+    if ((request.required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0) {
+        return {};
+    }
+    if (given.mapped == nullptr) {
+        return "mapped is null, and the host has to see this memory";
+    }
+    constexpr std::uintptr_t alignment = 64;  // every mapping has it, at aligned offsets
+    if (reinterpret_cast<std::uintptr_t>(given.mapped) % alignment != 0) {
+        return "mapped is no multiple of 64, so it is not where the byte at offset is";
+    }
+    return {};
+}
+
+/// One piece of memory from the host's allocator. Throws StatusException: the error that the host
+/// returned, or invalid_settings, which names what contradicts the request.
+void take_from_host(const MemoryRequest& request, MemoryBlock& block) {
+    constexpr const char* call = "HostDevice::memory.allocate";
+    const MemoryFunctions& functions = *block.device.host_memory();
+    MemoryAllocation given;
+    const VkResult result = functions.allocate(functions.user, &request, &given);
+    check(result, call, request.name);
+    if (result != VK_SUCCESS) {
+        throw StatusException({StatusCode::invalid_settings,
+                               std::string(call) + " returned " + to_string(result) + " for " +
+                                   request.name + ", which is neither success nor an error"});
+    }
+    block.given = given;  // given back with the block
+    if (const std::string reason = contradiction(given, request); !reason.empty()) {
+        throw StatusException(
+            {StatusCode::invalid_settings, std::string(call) +
+                                               " gave memory that contradicts the request for " +
+                                               request.name + ": " + reason});
+    }
 }
 
 bool is_out_of_memory(VkResult result) {
@@ -122,7 +186,7 @@ std::uint64_t MemoryBlocks::block_size(std::uint32_t type, MemoryKind kind,
 VkResult MemoryBlocks::add_block(std::uint32_t type, MemoryKind kind, std::uint64_t bytes,
                                  const std::string& what) {
     // Allocated first: if that fails, no memory may leak.
-    auto block = std::make_unique<MemoryBlock>();
+    auto block = std::make_unique<MemoryBlock>(*device_);
     blocks_.reserve(blocks_.size() + 1);
     VkMemoryAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
@@ -137,8 +201,7 @@ VkResult MemoryBlocks::add_block(std::uint32_t type, MemoryKind kind, std::uint6
     }
     block->own = Owned<VkDeviceMemory>(*device_, memory);
     block->memory = memory;
-    block->counted = CountedBytes(*device_, bytes);
-    block->bytes = bytes;
+    block->count(bytes);
     block->type = type;
     block->kind = kind;
     block->flags = device_->memory_flags(type);
@@ -164,13 +227,12 @@ MemoryBlock& MemoryBlocks::ask_host(const VkMemoryRequirements& needs, const Mem
     request.preferred = wish.preferred;
     request.optimal_images = kind == MemoryKind::image;
     request.name = what.c_str();
-    auto block = std::make_unique<MemoryBlock>();
-    block->given.emplace(*device_->host_memory(), request);
-    const MemoryAllocation& given = block->given->allocation();
+    auto block = std::make_unique<MemoryBlock>(*device_);
+    take_from_host(request, *block);
+    const MemoryAllocation& given = *block->given;
     block->memory = given.memory;
     block->start = given.offset;
-    block->counted = CountedBytes(*device_, needs.size);
-    block->bytes = needs.size;
+    block->count(needs.size);
     block->type = given.memory_type;
     block->kind = kind;
     block->flags = device_->memory_flags(given.memory_type);

@@ -12,33 +12,6 @@
 
 namespace nearfield::gpu {
 
-/// A share of Device::memory_count(), counted for as long as the object lives.
-class CountedBytes {
-public:
-    CountedBytes() = default;
-    CountedBytes(const Device& device, std::uint64_t bytes) : device_(&device), bytes_(bytes) {
-        device.memory_count().add(bytes);
-    }
-    ~CountedBytes() {
-        if (device_ != nullptr) {
-            device_->memory_count().remove(bytes_);
-        }
-    }
-    CountedBytes(CountedBytes&& other) noexcept
-        : device_(std::exchange(other.device_, nullptr)), bytes_(other.bytes_) {}
-    CountedBytes& operator=(CountedBytes&& other) noexcept {
-        std::swap(device_, other.device_);
-        std::swap(bytes_, other.bytes_);
-        return *this;
-    }
-    CountedBytes(const CountedBytes&) = delete;
-    CountedBytes& operator=(const CountedBytes&) = delete;
-
-private:
-    const Device* device_ = nullptr;
-    std::uint64_t bytes_ = 0;
-};
-
 /// Required and preferred properties of memory.
 struct MemoryWish {
     VkMemoryPropertyFlags required = 0;
@@ -108,7 +81,7 @@ public:
 
     /// Takes a piece that meets these requirements, of the type that fits the wish best; if that
     /// type is exhausted, of the next one. Throws StatusException (out_of_memory) if every type is;
-    /// for what the host's allocator does wrong see HostMemory. `what`: for the message.
+    /// (invalid_settings) if the host's allocator contradicts the request. `what`: for the message.
     [[nodiscard]] DeviceMemory allocate(const VkMemoryRequirements& needs, const MemoryWish& wish,
                                         MemoryKind kind, const std::string& what);
 
