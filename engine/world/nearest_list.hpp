@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -42,15 +41,19 @@ public:
     /// The square of the distance beyond which nothing is of interest, or slightly more, so that
     /// what is exactly as near is not left out.
     [[nodiscard]] double squared_reach(double rounding) const {
+        const double most =
+            reach() * (1.0 + 8.0 * std::numeric_limits<double>::epsilon()) + rounding;
+        return most * most;
+    }
+    /// The distance beyond which nothing is of interest.
+    [[nodiscard]] double reach() const {
         const double farthest = found_.size() == wanted_ ? found_.back().distance
                                                          : std::numeric_limits<double>::infinity();
-        const double reach = std::max(std::min(farthest, max_distance_), 0.0);
-        const double most = reach * (1.0 + 8.0 * std::numeric_limits<double>::epsilon()) + rounding;
-        return most * most;
+        return std::max(std::min(farthest, max_distance_), 0.0);
     }
 
     void offer(const Found& found) {
-        if (std::abs(found.distance) > max_distance_) {
+        if (found.distance > max_distance_) {
             return;
         }
         if (found_.size() == wanted_) {

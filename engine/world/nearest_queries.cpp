@@ -31,6 +31,9 @@ void NearestQueries::find_on(std::uint32_t index) {
     const geometry::NearestOnSegment on_edge =
         geometry::nearest_on_segment(point_, edges.start(near.edge), edges.end(near.edge));
     const double distance = std::sqrt(on_edge.squared_distance);
+    if (distance > query_.max_distance) {
+        return;
+    }
     nearest_.offer(
         {{inside ? -distance : distance, instances_->number(index), index, near.edge}, on_edge});
 }

@@ -271,43 +271,25 @@ void PoseQueries::find_nearest(const TransformedPolygon& placed, double max_dist
                                std::span<Clearance> nearest) {
     place(placed);
     guess_ = {};
-    std::size_t count = 0;
-    // What is farther away comes after all that are wanted.
-    const auto farthest = [&] {
-        const double last = count == nearest.size() ? nearest.back().distance
-                                                    : std::numeric_limits<double>::infinity();
-        return std::max(std::min(last, max_distance), 0.0);
-    };
-    const auto comes_before = [this](const Clearance& one, const Clearance& other) {
-        return one.distance != other.distance ? one.distance < other.distance
-                                              : instances_->number(one.instance.index) <
-                                                    instances_->number(other.instance.index);
-    };
+    found_.begin(nearest.size(), max_distance);
     const double rounding = edges().rounding + instances_->max_rounding();
-    const auto bound = [&] {
-        const double distance = with_slack(farthest(), 4.0 * rounding);
-        return distance * distance;
-    };
-    instances_->boxes().for_near(edges().box, bound, [&](std::uint32_t index, double) {
-        if (!instances_->passes(index, filter_)) {
-            return;
-        }
-        best_ = {};
-        nearest_ = BoxHierarchy::nowhere;
-        measure(index, intersects(index), {.max_clearance = farthest()});
-        best_.instance = instances_->handle(index);
-        const bool is_full = count == nearest.size();
-        if (nearest_ == BoxHierarchy::nowhere ||
-            (is_full && !comes_before(best_, nearest.back()))) {
-            return;
-        }
-        count += is_full ? 0 : 1;
-        const auto end = nearest.begin() + static_cast<std::ptrdiff_t>(count);
-        const auto place = std::upper_bound(nearest.begin(), end - 1, best_, comes_before);
-        std::move_backward(place, end - 1, end);
-        *place = best_;
-    });
-    std::fill(nearest.begin() + static_cast<std::ptrdiff_t>(count), nearest.end(), Clearance{});
+    instances_->boxes().for_near(
+        edges().box, [&] { return found_.squared_reach(4.0 * rounding); },
+        [&](std::uint32_t index, double) {
+            if (!instances_->passes(index, filter_)) {
+                return;
+            }
+            best_ = {};
+            nearest_ = BoxHierarchy::nowhere;
+            measure(index, intersects(index), {.max_clearance = found_.reach()});
+            best_.instance = instances_->handle(index);
+            if (nearest_ != BoxHierarchy::nowhere) {
+                found_.offer({{best_.distance, instances_->number(index), index, 0}, best_});
+            }
+        });
+    std::fill(nearest.begin(), nearest.end(), Clearance{});
+    std::transform(found_.found().begin(), found_.found().end(), nearest.begin(),
+                   [](const Found& found) { return found.clearance; });
 }
 
 }  // namespace nearfield::world

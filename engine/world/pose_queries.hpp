@@ -5,6 +5,7 @@
 #include <engine/simd/transformed_edges.hpp>
 #include <engine/world/deepest_vertex.hpp>
 #include <engine/world/instances.hpp>
+#include <engine/world/nearest_list.hpp>
 #include <nearfield/world.hpp>
 
 #include <cstdint>
@@ -49,6 +50,10 @@ private:
         double rounding = 0.0;  // of the shape's vertices
     };
 
+    struct Found : NearInstanceEdge {
+        Clearance clearance;
+    };
+
     void place(const geometry::TransformedPolygon& placed);
     /// The shape's edges at the pose, with or without the boxes over them.
     [[nodiscard]] const simd::TransformedEdges& edges() const { return shape_edges_[0]; }
@@ -85,6 +90,7 @@ private:
     VertexGuess nearest_deep_;
     Guess guess_;
     std::vector<std::uint32_t> candidates_;
+    NearestList<Found> found_;
 };
 
 }  // namespace nearfield::world
