@@ -6,6 +6,36 @@
 
 namespace nearfield::gpu {
 
+Owned<VkImage> make_image(const Device& device, VkFormat format, VkExtent2D extent,
+                          VkImageUsageFlags usage, const std::string& name,
+                          VkImageCreateFlags flags, std::span<const std::uint32_t> families) {
+    VkImageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.flags = flags;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = format;
+    info.extent = {extent.width, extent.height, 1};
+    info.mipLevels = 1;
+    info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = usage;
+    share(info, families);
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return make_object(device, info, name, name);
+}
+
+Owned<VkImageView> make_view(const Device& device, VkImage image, VkFormat format,
+                             VkImageAspectFlags aspects, const std::string& name) {
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.image = image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format;
+    info.subresourceRange = {aspects, 0, 1, 0, 1};
+    return make_object(device, info, name, name);
+}
+
 KeptImage::KeptImage(const Device& device, VkFormat format, std::string name)
     : device_(&device), format_(format), name_(std::move(name)) {}
 
@@ -20,9 +50,12 @@ bool KeptImage::reserve(VkExtent2D extent) {
     image_.reset();
     memory_.reset();
     try {
-        create_image(extent);
+        image_ = make_image(*device_, format_, extent,
+                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                            name_, 0, device_->reader_families());
         allocate_memory();
-        create_view();
+        view_ = make_view(*device_, image_.get(), format_, VK_IMAGE_ASPECT_COLOR_BIT, name_);
     } catch (...) {
         image_.reset();
         memory_.reset();
@@ -30,23 +63,6 @@ bool KeptImage::reserve(VkExtent2D extent) {
     }
     extent_ = extent;
     return true;
-}
-
-void KeptImage::create_image(VkExtent2D extent) {
-    VkImageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = format_;
-    info.extent = {extent.width, extent.height, 1};
-    info.mipLevels = 1;
-    info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.tiling = VK_IMAGE_TILING_OPTIMAL;
-    info.usage =
-        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    share(info, device_->reader_families());
-    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    image_ = make_object(*device_, info, name_, name_);
 }
 
 void KeptImage::allocate_memory() {
@@ -58,16 +74,6 @@ void KeptImage::allocate_memory() {
     check(functions.vkBindImageMemory(device_->handle(), image_.get(), memory_.get(),
                                       memory_.offset()),
           "vkBindImageMemory", name_);
-}
-
-void KeptImage::create_view() {
-    VkImageViewCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    info.image = image_.get();
-    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    info.format = format_;
-    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    view_ = make_object(*device_, info, name_, name_);
 }
 
 }  // namespace nearfield::gpu

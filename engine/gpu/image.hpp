@@ -4,9 +4,20 @@
 #include <engine/gpu/memory.hpp>
 #include <engine/gpu/owned.hpp>
 
+#include <cstdint>
+#include <span>
 #include <string>
 
 namespace nearfield::gpu {
+
+/// An image of two dimensions and one level, shared by the queue families if there are several.
+[[nodiscard]] Owned<VkImage> make_image(const Device& device, VkFormat format, VkExtent2D extent,
+                                        VkImageUsageFlags usage, const std::string& name,
+                                        VkImageCreateFlags flags = 0,
+                                        std::span<const std::uint32_t> families = {});
+/// A view of all of such an image.
+[[nodiscard]] Owned<VkImageView> make_view(const Device& device, VkImage image, VkFormat format,
+                                           VkImageAspectFlags aspects, const std::string& name);
 
 /// A colour image with memory of its own and a view of all of it, which only grows: compute shaders
 /// write it, the library's user samples it and copies from it. Shared by
@@ -26,9 +37,7 @@ public:
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
 
 private:
-    void create_image(VkExtent2D extent);
     void allocate_memory();
-    void create_view();
 
     const Device* device_;
     VkFormat format_;

@@ -1,4 +1,5 @@
 #include <engine/base/status_exception.hpp>
+#include <engine/gpu/image.hpp>
 #include <engine/graph/access.hpp>
 #include <engine/graph/bake_steps.hpp>
 #include <engine/graph/execute.hpp>
@@ -55,40 +56,6 @@ VkImageAspectFlags sampled_aspect(const Resource& resource) {
     return (aspects & depth) != 0 ? depth : aspects;
 }
 
-gpu::Owned<VkImage> make_image(const gpu::Device& device, const ImageDescription& description,
-                               VkImageUsageFlags usage) {
-    VkImageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    if (description.sampled_format != VK_FORMAT_UNDEFINED) {
-        info.flags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
-    }
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = description.format;
-    info.extent = {description.extent.width, description.extent.height, 1};
-    info.mipLevels = 1;
-    info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.tiling = VK_IMAGE_TILING_OPTIMAL;
-    info.usage = usage;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    const std::string name = "nearfield image " + description.name;
-    return gpu::make_object(device, info, name, name);
-}
-
-gpu::Owned<VkImageView> make_view(const gpu::Device& device, VkImage image,
-                                  const ImageDescription& description, VkFormat format,
-                                  VkImageAspectFlags aspects, const char* purpose) {
-    VkImageViewCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    info.image = image;
-    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    info.format = format;
-    info.subresourceRange = {aspects, 0, 1, 0, 1};
-    const std::string name = "nearfield image " + description.name + " as " + purpose;
-    return gpu::make_object(device, info, name, name);
-}
-
 gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPass render_pass,
                                            const std::vector<VkImageView>& views, VkExtent2D extent,
                                            const std::string& pass_name) {
@@ -125,8 +92,12 @@ void Executor::create_images(const Graph& graph) {
     images_.resize(graph.resources().size());
     for (std::size_t i = 0; i < images_.size(); ++i) {
         if (baked_.lifetimes[i].memory_slot != no_memory_slot) {
+            const ImageDescription& image = graph.resources()[i].image;
+            const bool is_sampled_differently = image.sampled_format != VK_FORMAT_UNDEFINED;
             images_[i].image =
-                make_image(*device_, graph.resources()[i].image, baked_.lifetimes[i].usage);
+                gpu::make_image(*device_, image.format, image.extent, baked_.lifetimes[i].usage,
+                                "nearfield image " + image.name,
+                                is_sampled_differently ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0);
         }
     }
 }
@@ -170,17 +141,18 @@ void Executor::create_views(const Graph& graph) {
         if (!image.image) {
             continue;  // unused, or the caller's
         }
+        const std::string name = "nearfield image " + resource.name() + " as ";
         if ((usage & ~static_cast<VkImageUsageFlags>(VK_IMAGE_USAGE_SAMPLED_BIT)) != 0) {
             image.attachment_view =
-                make_view(*device_, image.image.get(), resource.image, resource.image.format,
-                          all_aspects(resource), "attachment");
+                gpu::make_view(*device_, image.image.get(), resource.image.format,
+                               all_aspects(resource), name + "attachment");
         }
         if ((usage & VK_IMAGE_USAGE_SAMPLED_BIT) != 0) {
             const VkFormat format = resource.image.sampled_format != VK_FORMAT_UNDEFINED
                                         ? resource.image.sampled_format
                                         : resource.image.format;
-            image.sampled_view = make_view(*device_, image.image.get(), resource.image, format,
-                                           sampled_aspect(resource), "sampled");
+            image.sampled_view = gpu::make_view(*device_, image.image.get(), format,
+                                                sampled_aspect(resource), name + "sampled");
         }
     }
 }
