@@ -13,6 +13,30 @@
 
 namespace nearfield::simd {
 
+/// Calls `use(i)` for the boxes whose keys are at most `bound()`, which may fall, in ascending
+/// order of their keys. Boxes that hold nothing are infinitely far away.
+template <class Bound, class Use>
+void for_nearest_first(const BoxKeys& keys, const Bound& bound, const Use& use) {
+    constexpr double largest_key = 1e300;
+    const double most = std::min(bound(), largest_key);
+    std::uint32_t left = 0;
+    for (std::uint32_t i = 0; i < keys.size(); ++i) {
+        left |= (keys[i] <= most ? 1U : 0U) << i;
+    }
+    while (left != 0) {
+        auto nearest = static_cast<std::uint32_t>(std::countr_zero(left));
+        for (std::uint32_t others = left & (left - 1); others != 0; others &= others - 1) {
+            const auto other = static_cast<std::uint32_t>(std::countr_zero(others));
+            nearest = keys[other] < keys[nearest] ? other : nearest;
+        }
+        if (keys[nearest] > bound()) {
+            return;
+        }
+        left &= ~(1U << nearest);
+        use(nearest);
+    }
+}
+
 /// A dynamic tree over many boxes, each named by a number of the caller's: eight boxes in one node,
 /// tested together. A box that changes is refitted along its path to the root; once many changes
 /// have made the nodes much larger, everything is ordered anew along a Hilbert curve.
@@ -114,31 +138,14 @@ private:
                     const Bound& bound, const Use& use) const {
         BoxKeys keys;
         kernels::measure_boxes(levels_[level][number].boxes(), 0, extent, keys);
-        const double most = std::min(bound(), largest_key);
-        std::uint32_t left = 0;
-        for (std::uint32_t i = 0; i < fan_out; ++i) {
-            left |= (keys[i] <= most ? 1U : 0U) << i;
-        }
-        while (left != 0) {
-            auto nearest = static_cast<std::uint32_t>(std::countr_zero(left));
-            for (std::uint32_t others = left & (left - 1); others != 0; others &= others - 1) {
-                const auto other = static_cast<std::uint32_t>(std::countr_zero(others));
-                nearest = keys[other] < keys[nearest] ? other : nearest;
-            }
-            if (keys[nearest] > bound()) {
-                return;
-            }
-            left &= ~(1U << nearest);
+        for_nearest_first(keys, bound, [&](std::uint32_t i) {
             if (level > 0) {
-                visit_near(level - 1, fan_out * number + nearest, extent, bound, use);
-            } else if (names_[fan_out * number + nearest] != nowhere) {
-                use(names_[fan_out * number + nearest], keys[nearest]);
+                visit_near(level - 1, fan_out * number + i, extent, bound, use);
+            } else if (names_[fan_out * number + i] != nowhere) {
+                use(names_[fan_out * number + i], keys[i]);
             }
-        }
+        });
     }
-
-    /// Keys above this are those of boxes that hold nothing.
-    static constexpr double largest_key = 1e300;
 
     void build();
     void set_box(std::size_t level, std::uint32_t box, const Extent& extent);

@@ -21,23 +21,17 @@ void for_edges_near(const simd::AabbTree& tree, std::uint32_t level, std::uint32
                     const simd::Extent& from, const Bound& bound, const Use& use) {
     simd::BoxKeys keys;
     simd::kernels::measure_boxes(tree.level(level), first, from, keys);
-    for (std::size_t left = keys.size(); left > 0; --left) {
-        const auto nearest = std::min_element(keys.begin(), keys.end());
-        // Boxes that hold nothing are infinitely far away.
-        if (*nearest > bound() || *nearest == far_away) {
-            return;
-        }
-        *nearest = far_away;
-        const auto box = first + static_cast<std::uint32_t>(nearest - keys.begin());
+    simd::for_nearest_first(keys, bound, [&](std::uint32_t i) {
+        const std::uint32_t box = first + i;
         if (level > 0) {
             for_edges_near(tree, level - 1, simd::AabbTree::fan_out * box, from, bound, use);
-            continue;
+            return;
         }
         const simd::EdgeRange range = tree.edges_of(box);
         for (std::uint32_t edge = range.first; edge < range.end; ++edge) {
             use(edge);
         }
-    }
+    });
 }
 
 /// The closest points of an edge and a boundary that does not hold the edge.
