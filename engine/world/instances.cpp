@@ -88,12 +88,12 @@ void Instances::set_filter(std::uint32_t index, std::uint32_t category, std::uin
 
 void Instances::remove(std::uint32_t index) {
     free_.push_back(index);
+    note_change(index);
     Entry& entry = entries_[index];
     entry.present = false;
     ++entry.generation;
     kept_[index]->has_edges = false;
     boxes_.remove(index);
-    is_prepared_ = false;
     --count_;
     ++membership_;
 }
@@ -117,9 +117,9 @@ void Instances::take_in_changes(const FindShape& find_shape, std::uint64_t shape
     }
     for (const std::uint32_t i : changes_) {
         const Entry& entry = entries_[i];
+        changed_[i] = last_change_;
         if (entry.present) {
             kept_[i]->polygon = find_shape(entry.instance.shape);
-            changed_[i] = last_change_;
             place(i);
         }
     }

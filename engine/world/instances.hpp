@@ -103,7 +103,8 @@ public:
     }
     /// The order in which instances were added.
     [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return numbers_[index]; }
-    /// Changes with the pose, the shape's rings and the filter: larger than at any earlier time.
+    /// Changes with the pose, the shape's rings and the filter, and where an instance comes or
+    /// goes: larger than at any earlier time.
     [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return changed_[index]; }
     [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
     [[nodiscard]] const localize::Bounds& bounds(std::uint32_t index) const {

@@ -44,14 +44,10 @@ void Motions::update(const Instances& instances, std::span<const InstanceHandle>
     entries_.resize(instances.size());
     for (std::uint32_t index = 0; index < instances.size(); ++index) {
         Entry& entry = entries_[index];
-        const std::uint32_t generation = instances.handle(index).generation;
         const Pose& end = numbers_[index] == still ? instances[index].pose : ends[numbers_[index]];
-        entry.has_changed = !entry.is_known || entry.generation != generation ||
-                            instances.changed(index) > last_change_ || !(entry.end == end);
+        entry.has_changed = instances.changed(index) > last_change_ || !(entry.end == end);
         if (entry.has_changed) {
             entry.end = end;
-            entry.generation = generation;
-            entry.is_known = true;
             place(index, instances);
         }
     }

@@ -38,8 +38,6 @@ private:
     struct Entry {
         Pose end;
         localize::Bounds bounds;
-        std::uint32_t generation = 0;
-        bool is_known = false;
         bool has_changed = false;
     };
 

@@ -7,32 +7,8 @@ namespace nearfield::world {
 
 void PairList::clear() {
     last_change_ = 0;
-    membership_ = 0;
     pairs_.clear();
     new_pairs_.clear();
-    generations_.clear();
-}
-
-void PairList::find_changed(const Instances& instances) {
-    const std::uint32_t size = instances.size();
-    has_changed_.resize(size);
-    for (std::uint32_t i = 0; i < size; ++i) {
-        has_changed_[i] = instances.changed(i) > last_change_ ? 1 : 0;
-    }
-    last_change_ = instances.last_change();
-    if (membership_ == instances.membership()) {
-        return;
-    }
-    const std::size_t known = generations_.size();
-    generations_.resize(size);
-    for (std::uint32_t i = 0; i < size; ++i) {
-        const std::uint32_t generation = instances.handle(i).generation;
-        if (i >= known || generations_[i] != generation) {
-            has_changed_[i] = 1;
-        }
-        generations_[i] = generation;
-    }
-    membership_ = instances.membership();
 }
 
 template <class Boxes>
@@ -61,7 +37,11 @@ void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, co
 }
 
 void PairList::update(const Instances& instances, double reach, bool both_ways) {
-    find_changed(instances);
+    has_changed_.resize(instances.size());
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+        has_changed_[i] = instances.changed(i) > last_change_ ? 1 : 0;
+    }
+    last_change_ = instances.last_change();
     find_overlapping_boxes(instances, instances, reach, both_ways);
 }
 

@@ -36,7 +36,6 @@ public:
     void clear();
 
 private:
-    void find_changed(const Instances& instances);
     /// `Boxes`: the instances, or their motions.
     template <class Boxes>
     void find_pairs_of(std::uint32_t index, const Instances& instances, const Boxes& boxes,
@@ -46,15 +45,12 @@ private:
     void find_overlapping_boxes(const Instances& instances, const Boxes& boxes, double reach,
                                 bool both_ways);
 
-    // Of the instances, at the last update.
-    std::uint64_t last_change_ = 0;
-    std::uint64_t membership_ = 0;
+    std::uint64_t last_change_ = 0;  // of the instances, at the last update
     std::vector<Pair> pairs_;
     std::vector<Pair> pairs_before_;
     std::vector<Pair> found_;  // of instances that changed
     std::vector<std::uint32_t> new_pairs_;
-    std::vector<std::uint32_t> generations_;  // by index, at the last update
-    std::vector<std::uint8_t> has_changed_;   // by index
+    std::vector<std::uint8_t> has_changed_;  // by index
 };
 
 }  // namespace nearfield::world
