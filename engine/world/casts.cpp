@@ -99,6 +99,7 @@ struct World::State::Casts {
 
     /// `number`: of the sweep.
     void cast(const Sweep& sweep, std::size_t number, Job& job, ShapeCastHit& hit) const {
+        checkpoint();
         job.found.clear();
         find_candidates(sweep, job.found);
         for (const std::uint32_t index : job.found) {
