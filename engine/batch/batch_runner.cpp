@@ -317,7 +317,9 @@ void BatchRunner::collect(Laps& laps) {
         std::rethrow_exception(std::exchange(late_failure_, nullptr));
     }
     if (!for_device_.empty()) {
-        planning_->writer.write(plan_, for_device_, answers_, results_.results);
+        plan::MemoryBudget memory(plan::with_affordable_atlas(planning_->limits));
+        memory.add(plan_.result_bytes);
+        planning_->writer.write(plan_, for_device_, answers_, memory, results_.results);
         solve_what_had_no_room();
         check_room_for_records();
         timings.decode += laps.next();

@@ -40,11 +40,10 @@ PlanLimits with_affordable_atlas(PlanLimits limits) {
     return limits;
 }
 
-MemoryBudget::MemoryBudget(const PlanLimits& limits, bool counts_closely)
+MemoryBudget::MemoryBudget(const PlanLimits& limits)
     : limit_(static_cast<double>(limits.memory)),
       images_(bytes_of_images(limits)),
-      for_results_(std::max(0.0, limit_ - images_)),
-      counts_closely_(counts_closely) {}
+      for_results_(std::max(0.0, limit_ - images_)) {}
 
 void QueryMemory::require(double bytes, double growth) {
     bytes_ += bytes;
@@ -91,14 +90,6 @@ void QueryMemory::refuse(double required, double growth) const {
          "query " + std::to_string(query_) + " with tolerance " + number(tolerance_) +
              " needs up to " + memory_text(batch_.images_ + required, up) +
              ", more than the limit of " + memory_text(batch_.limit_, down) + hint});
-}
-
-bool QueryMemory::fits_roughly(double bytes) {
-    if (batch_.counts_closely_ && bytes > 0.0) {
-        return false;
-    }
-    batch_.rough_ += bytes;
-    return true;
 }
 
 }  // namespace nearfield::plan

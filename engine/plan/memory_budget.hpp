@@ -15,16 +15,12 @@ namespace nearfield::plan {
 /// once.
 class MemoryBudget {
 public:
-    /// `counts_closely`: no query is left to the device before localisation shows how many points
-    /// it can have.
-    explicit MemoryBudget(const PlanLimits& limits, bool counts_closely = false);
+    explicit MemoryBudget(const PlanLimits& limits);
 
     /// Adds what other parts of the batch need.
     void add(double bytes) { required_ += bytes; }
-    /// Whether more is needed than there is, because points were estimated roughly.
-    [[nodiscard]] bool is_exceeded() const { return result_bytes() > for_results_; }
     /// Bytes that all results may need on the host.
-    [[nodiscard]] double result_bytes() const { return required_ + rough_; }
+    [[nodiscard]] double result_bytes() const { return required_; }
 
 private:
     friend class QueryMemory;
@@ -32,9 +28,7 @@ private:
     double limit_;        // for all
     double images_;       // what the atlas takes of it
     double for_results_;  // the rest
-    bool counts_closely_;
     std::atomic<double> required_ = 0.0;
-    double rough_ = 0.0;  // that points may take of queries that were not localised
 };
 
 /// What one query adds to the budget of its batch.
@@ -56,9 +50,6 @@ public:
             require_alone(kept, closely());
         }
     }
-    /// Adds a rough estimate of the device's points on whole boundaries, or returns false if they
-    /// have to be counted closely.
-    [[nodiscard]] bool fits_roughly(double bytes);
 
 private:
     [[nodiscard]] bool fits_alone(double kept, double points) const;

@@ -17,18 +17,6 @@ Planner::Planner(const PlanLimits& limits)
 void Planner::plan(std::span<const CheckedQuery> queries, Plan& plan,
                    std::vector<AnyResult>& results) {
     MemoryBudget memory(limits_);
-    plan_all(queries, memory, plan, results);
-    plan.result_bytes = memory.result_bytes();
-    if (memory.is_exceeded()) {
-        MemoryBudget closely(limits_, true);
-        plan_all(queries, closely, plan, results);
-        plan.result_bytes = closely.result_bytes();
-    }
-    packer_.pack(plan);
-}
-
-void Planner::plan_all(std::span<const CheckedQuery> queries, MemoryBudget& memory, Plan& plan,
-                       std::vector<AnyResult>& results) {
     plan.clear();
     targets_.clear();
     plan.queries.resize(results.size());
@@ -45,16 +33,13 @@ void Planner::plan_all(std::span<const CheckedQuery> queries, MemoryBudget& memo
             },
             *checked.query);
     }
+    plan.result_bytes = memory.result_bytes();
+    packer_.pack(plan);
 }
 
 template <class Query>
 void Planner::plan_query(const Query& query, CurrentQuery& current,
                          typename Query::Result& result) {
-    if (!result.status.ok()) {
-        result.status = {};  // as it was planned before
-    }
-    result.regions.clear();
-    result.localization = {};
     if constexpr (requires { query.on_device; }) {
         current.planned().on_device = query.on_device;
         if (query.on_device) {

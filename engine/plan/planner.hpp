@@ -3,7 +3,6 @@
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/checked_query.hpp>
 #include <engine/plan/field_planner.hpp>
-#include <engine/plan/memory_budget.hpp>
 #include <engine/plan/overlap_planner.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/plan_limits.hpp>
@@ -30,8 +29,6 @@ public:
     void plan(std::span<const CheckedQuery> queries, Plan& plan, std::vector<AnyResult>& results);
 
 private:
-    void plan_all(std::span<const CheckedQuery> queries, MemoryBudget& memory, Plan& plan,
-                  std::vector<AnyResult>& results);
     /// Plans a query, or states in its result why it is rejected.
     template <class Query>
     void plan_query(const Query& query, CurrentQuery& current, typename Query::Result& result);

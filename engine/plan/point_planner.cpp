@@ -24,9 +24,6 @@ using localize::Chain;
 // Host memory per point: planned and resolved, in the result and in the buffers on the way there.
 constexpr double bytes_per_point =
     sizeof(PlannedPoint) + std::max(sizeof(PenetratingPoint), sizeof(ContactPoint)) + 64.0;
-// What is kept of a point that the device finds, beside its record.
-constexpr double bytes_of_found = sizeof(FoundPointData);
-
 // For either boundary, in a search that is finished exactly.
 constexpr double max_search_samples = 4096.0;
 
@@ -69,9 +66,14 @@ bool is_searchable(double samples, const CurrentQuery& current) {
 }
 
 /// Checks that the device can search what is to stay there; the result states the error.
-bool check_resident(double samples, const CurrentQuery& current, ResultSummary& result) {
+bool check_resident(bool both_ways, const CurrentQuery& current, ResultSummary& result) {
     const PlannedQuery& planned = current.planned();
-    if (!planned.on_device || is_searchable(samples, current)) {
+    if (!planned.on_device) {
+        return true;
+    }
+    const double samples =
+        max_points(planned) + (both_ways ? max_samples(*planned.b, planned.budget.cell) : 0.0);
+    if (is_searchable(samples, current)) {
         return true;
     }
     result.status = {StatusCode::too_large,
@@ -83,10 +85,6 @@ bool check_resident(double samples, const CurrentQuery& current, ResultSummary& 
                          number(static_cast<double>(max_shape_bytes(*planned.a, *planned.b))) +
                          " bytes"};
     return false;
-}
-
-PointSource source_of(const PlannedQuery& planned) {
-    return planned.technique == Technique::compute ? PointSource::device : PointSource::planner;
 }
 
 void add_search(std::uint32_t direction, const TransformedPolygon& a, const TransformedPolygon& b,
@@ -102,9 +100,10 @@ void add_search(std::uint32_t direction, const TransformedPolygon& a, const Tran
 void search(double reach, bool both_ways, geometry::RecentlyPlaced& instances,
             CurrentQuery& current, ResultSummary& result) {
     PlannedQuery& planned = current.planned();
+    planned.points().source = PointSource::device;
     const BoxedPolygon a = instances.place_with_box(*planned.a, planned.pose_a);
     const BoxedPolygon b = instances.place_with_box(*planned.b, planned.pose_b);
-    if (!check_numbers(planned, a, b, result)) {
+    if (!check_resident(both_ways, current, result) || !check_numbers(planned, a, b, result)) {
         return;
     }
     const Box of_a = a.box.intersection(grown(b.box, reach));
@@ -170,16 +169,9 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
                         PenetrationResult& result) {
     PlannedQuery& planned = current.planned();
     auto& points = planned.work.emplace<PlannedPoints>();
-    if (!check_resident(max_points(planned), current, result)) {
-        return;
-    }
-    points.source = source_of(planned);
-    const bool is_searched = points.source == PointSource::device;
-    // Of points that are only counted the device leaves out those that cannot be the deepest.
-    points.summarized = is_searched && query.summary_only;
-    const double kept = (!query.summary_only ? sizeof(PenetratingPoint) : 0.0) +
-                        (points.summarized ? 0.0 : bytes_of_found);
-    if (is_searched && current.memory.fits_roughly(kept * max_points(planned))) {
+    if (planned.technique == Technique::compute) {
+        // Of points that are only counted the device leaves out those that cannot be the deepest.
+        points.summarized = query.summary_only;
         search(0.0, false, instances_, current, result);
         return;
     }
@@ -187,13 +179,7 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
         return;
     }
     const double samples = find_inside(query, current, chains_[0], result);
-    if (chains_[0].empty()) {
-        return;
-    }
-    if (is_searched) {
-        current.memory.require(kept * samples, 1.0);
-        search(0.0, false, instances_, current, result);
-    } else {
+    if (!chains_[0].empty()) {
         add_deepest(query, samples, current, result);
     }
 }
@@ -217,20 +203,12 @@ void PointPlanner::add_deepest(const PenetrationQuery& query, double samples, Cu
 void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, ContactResult& result) {
     PlannedQuery& planned = current.planned();
     auto& points = planned.work.emplace<PlannedPoints>();
-    points.source = source_of(planned);
     points.outside = true;
-    const bool is_searched = points.source == PointSource::device;
     if (query.normals == ContactNormals::gradient) {
         current.plan.with_gradient_normals.push_back(current.index);
     }
-    const double of_boundaries =
-        max_samples(*planned.a, result.cell) + max_samples(*planned.b, result.cell);
-    if (!check_resident(of_boundaries, current, result)) {
-        return;
-    }
     const double near = query.contact_distance;
-    const double kept = (!query.summary_only ? sizeof(ContactPoint) : 0.0) + bytes_of_found;
-    if (is_searched && current.memory.fits_roughly(kept * of_boundaries)) {
+    if (planned.technique == Technique::compute) {
         search(near, true, instances_, current, result);
         return;
     }
@@ -241,11 +219,6 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const double of_a = find_near(a, b, near, current, chains_[0], result);
     const double of_b = find_near(b, a, near, current, chains_[1], result);
-    if (is_searched) {
-        current.memory.require(kept * (of_a + of_b), 1.0);
-        search(near, true, instances_, current, result);
-        return;
-    }
     const std::uint32_t reverse = add_reverse(current);
     add_near(current.index, near, chains_[0], of_a, current, result);
     add_near(reverse, near, chains_[1], of_b, current, result);

@@ -36,6 +36,14 @@ double sampled_distance(const plan::Plan& plan, const PlannedQuery& query,
     return std::sqrt(squared);
 }
 
+/// Counts the memory of points that a result lists: how many there are is known once the search has
+/// found them.
+void require_room(const PlannedQuery& query, std::size_t points, std::size_t bytes_of_point,
+                  double tolerance, plan::MemoryBudget& memory) {
+    plan::QueryMemory(memory, query.index, tolerance)
+        .require(static_cast<double>(points * bytes_of_point), 1.0);
+}
+
 void take_summary(const PenetrationSummary& summary, PenetrationResult& result) {
     result.count = summary.count;
     result.deepest = summary.deepest;
@@ -83,6 +91,8 @@ void ResultWriter::write_searched(const Input& input, PenetrationResult& result)
         if (planned.points().summarized) {
             take_summary(resolver_.summarize_penetration(result.tolerance), result);
         } else {
+            require_room(planned, row->point_count, sizeof(PenetratingPoint), result.tolerance,
+                         input.memory);
             list_penetrations(result);
         }
     }
@@ -108,10 +118,14 @@ void ResultWriter::write(const Input& input, ContactResult& result) {
     const auto& query = std::get<ContactQuery>(*planned.query);
     if (query.normals == ContactNormals::analytic) {
         const std::uint32_t reverse = planned.points().reverse;
-        contact_decoder_.find(
-            {planned, input.answers.points_of(input.plan, planned.index)},
-            {input.plan.queries[reverse], input.answers.points_of(input.plan, reverse)},
-            result.cell, found_contacts_);
+        const QueryPoints of_a = input.answers.points_of(input.plan, planned.index);
+        const QueryPoints of_b = input.answers.points_of(input.plan, reverse);
+        if (!query.summary_only) {
+            require_room(planned, of_a.found.size() + of_b.found.size(), sizeof(ContactPoint),
+                         result.tolerance, input.memory);
+        }
+        contact_decoder_.find({planned, of_a}, {input.plan.queries[reverse], of_b}, result.cell,
+                              found_contacts_);
         found_contacts_.write(*planned.a, *planned.b, query, result);
     }
     result.intersects = shapes_intersect(input);
@@ -142,7 +156,8 @@ void ResultWriter::write(const Input& input, ClosestPointResult& result) {
 }
 
 void ResultWriter::write(const plan::Plan& plan, std::span<const plan::CheckedQuery> queries,
-                         DeviceAnswers& answers, std::vector<AnyResult>& results) {
+                         DeviceAnswers& answers, plan::MemoryBudget& memory,
+                         std::vector<AnyResult>& results) {
     answers.write_drawn_samples(results);
     // Other batches may have been answered in between.
     instances_.begin_batch();
@@ -159,7 +174,7 @@ void ResultWriter::write(const plan::Plan& plan, std::span<const plan::CheckedQu
                 [&](auto& result) {
                     if (result.status.ok()) {
                         checkpoint();
-                        write({plan, planned, answers}, result);
+                        write({plan, planned, answers, memory}, result);
                         finish_answers(1);
                     }
                 },

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/narrowphase/overlap_test.hpp>
+#include <engine/plan/memory_budget.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/readback/contacts.hpp>
 #include <engine/readback/device_answers.hpp>
@@ -22,9 +23,10 @@ class ResultWriter {
 public:
     /// Writes the results of the queries that a device answers, except for the normals of contacts
     /// that are gradients, and for points that the search had no room for: these are left to the
-    /// CPU. Once the call is interrupted, results are empty and say so.
+    /// CPU. Once the call is interrupted, results are empty and say so. Throws StatusException
+    /// (too_large) if the points that the search has found exceed the memory of the batch.
     void write(const plan::Plan& plan, std::span<const plan::CheckedQuery> queries,
-               DeviceAnswers& answers, std::vector<AnyResult>& results);
+               DeviceAnswers& answers, plan::MemoryBudget& memory, std::vector<AnyResult>& results);
 
 private:
     /// A query and what its answer is made of.
@@ -32,6 +34,7 @@ private:
         const plan::Plan& plan;
         const plan::PlannedQuery& planned;
         const DeviceAnswers& answers;
+        plan::MemoryBudget& memory;
     };
 
     /// Whether the shapes of a query share a point.

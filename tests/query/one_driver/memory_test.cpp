@@ -1,13 +1,14 @@
 #include <tests/query/pair.hpp>
 #include <tests/query/query_test.hpp>
 
+#include <string>
 #include <utility>
 
 namespace nearfield::test {
 namespace {
 
-/// The memory limit of a batch and what the CPU finds: the samples of boundaries are located in
-/// lists of bounded length, so only what is found has to fit.
+/// The memory limit of a batch and what is found: only that has to fit, not the samples of
+/// boundaries.
 class MemoryLimit : public QueryTest {
 protected:
     /// Hundreds of thousands of samples on each boundary.
@@ -42,12 +43,20 @@ protected:
     }
 };
 
-TEST_F(MemoryLimit, IsForThePointsThatPenetrateAndNotForSamples) {
+/// Whoever finds them.
+class MemoryLimitOfTechniques : public MemoryLimit,
+                                public testing::WithParamInterface<Technique> {};
+
+INSTANTIATE_TEST_SUITE_P(MemoryLimit, MemoryLimitOfTechniques,
+                         testing::Values(Technique::cpu, Technique::compute),
+                         [](const auto& info) { return std::string(to_string(info.param)); });
+
+TEST_P(MemoryLimitOfTechniques, IsForThePointsThatPenetrateAndNotForSamples) {
     Context little = with_memory(12);
     for_each_case(271, 2, [&](Random& random) {
         const Pair pair = finely_sampled(random);
-        const PlacedPair much(context(), pair, Technique::cpu);
-        const PlacedPair scarce(little, pair, Technique::cpu);
+        const PlacedPair much(context(), pair, GetParam());
+        const PlacedPair scarce(little, pair, GetParam());
         const PenetrationResult all = run_alone(context(), much.penetration());
         ASSERT_GT(all.count, 70'000U) << "more than one list";
         EXPECT_EQ(all.count, all.points.size());
@@ -66,12 +75,12 @@ TEST_F(MemoryLimit, IsForThePointsThatPenetrateAndNotForSamples) {
     });
 }
 
-TEST_F(MemoryLimit, IsForContactsAndNotForSamples) {
+TEST_P(MemoryLimitOfTechniques, IsForContactsAndNotForSamples) {
     Context little = with_memory(12);
     for_each_case(577, 2, [&](Random& random) {
         const Pair pair = finely_sampled(random);
-        const PlacedPair much(context(), pair, Technique::cpu);
-        const PlacedPair scarce(little, pair, Technique::cpu);
+        const PlacedPair much(context(), pair, GetParam());
+        const PlacedPair scarce(little, pair, GetParam());
         const double near = 10000.0 * much.tolerance();
         const ContactResult all = run_alone(context(), much.contacts(near));
         ContactResult result;

@@ -31,22 +31,6 @@ TEST(MemoryBudget, ImagesTakeAtMostAQuarterOfTheMemory) {
     }
 }
 
-TEST(MemoryBudget, PointsAreEstimatedRoughlyUnlessTheyAreCountedClosely) {
-    const PlanLimits limits = limits_with(1U << 28U);
-    MemoryBudget roughly(limits);
-    EXPECT_TRUE(QueryMemory(roughly, 0, 1.0).fits_roughly(1e9));
-    EXPECT_EQ(roughly.result_bytes(), 1e9);
-    EXPECT_TRUE(roughly.is_exceeded());
-    MemoryBudget closely(limits, true);
-    QueryMemory again(closely, 0, 1.0);
-    EXPECT_FALSE(again.fits_roughly(1e9));
-    EXPECT_TRUE(again.fits_roughly(0.0)) << "without points there is nothing to count";
-    again.require(1e7, 1.0);
-    EXPECT_EQ(closely.result_bytes(), 1e7);
-    EXPECT_FALSE(closely.is_exceeded());
-    EXPECT_THROW(again.require(1e9, 1.0), StatusException);
-}
-
 TEST(MemoryBudget, PointsOfAQueryAreCountedCloselyOnlyIfTheyAreMany) {
     MemoryBudget budget(limits_with(1U << 28U));
     QueryMemory query(budget, 3, 0.5);
