@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/base/status_exception.hpp>
+#include <engine/context/implementation.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/world/instances.hpp>
 #include <nearfield/query.hpp>
@@ -31,6 +32,19 @@ namespace nearfield {
 inline void require_cpu(const char* call, Technique technique) {
     if (technique != Technique::cpu && technique != Technique::automatic) {
         refuse_technique(call, technique);
+    }
+}
+
+/// Refuses a query whose numbers, or whose technique in this context, cannot be used.
+template <class Query>
+void require_answered(const char* call, const Query& query,
+                      const Context::Implementation& context) {
+    const DeviceTechniques& techniques = context.techniques();
+    const plan::AvailableTechniques available{.device = context.device() != nullptr,
+                                              .raster = techniques.raster,
+                                              .compute = techniques.compute};
+    if (const Status status = plan::check_query(query, available); !status.ok()) {
+        throw StatusException({status.code(), std::string(call) + ": " + status.message()});
     }
 }
 

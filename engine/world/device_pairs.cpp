@@ -46,25 +46,19 @@ std::uint32_t DevicePairs::candidates() const {
 }
 
 void DevicePairs::check(const char* call) const {
-    const DeviceTechniques& techniques = context_->techniques();
-    const plan::AvailableTechniques available{.device = context_->device() != nullptr,
-                                              .raster = techniques.raster,
-                                              .compute = techniques.compute};
-    const Status status = std::visit(
+    std::visit(
         [&]<class Query>(Query asked) {
             asked.technique = Technique::compute;
             if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
                 // Its only number is the technique, which answers no such query of a batch.
-                return plan::check_query(
-                    PenetrationQuery{.tolerance = 1.0, .technique = asked.technique}, available);
+                require_answered(call,
+                                 PenetrationQuery{.tolerance = 1.0, .technique = asked.technique},
+                                 *context_);
             } else {
-                return plan::check_query(asked, available);
+                require_answered(call, asked, *context_);
             }
         },
         query_);
-    if (!status.ok()) {
-        throw StatusException({status.code(), std::string(call) + ": " + status.message()});
-    }
 }
 
 void DevicePairs::set_submitted(bool is_submitted) {

@@ -224,12 +224,9 @@ static Technique automatic_technique(const Context::Implementation& context, con
     return needs_device || (is_quick && is_answered) ? Technique::compute : Technique::cpu;
 }
 
-/// Refuses what the device does not answer.
+/// Refuses what the device does not answer about the pairs that it finds.
 static void require_for_device(const char* call, const AnyQuery& query,
                                const PairTableOptions& options) {
-    if (options.listed) {
-        refuse(call, "Technique::compute finds its pairs; a list of them is for Technique::cpu");
-    }
     if (!options.hits_only) {
         refuse(call,
                "Technique::compute finds the pairs that are hit; a table of all candidates "
@@ -308,7 +305,8 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
     if (technique == Technique::raster) {
         refuse(call, "pairs of a world are answered by Technique::cpu or compute");
     }
-    if (technique == Technique::compute) {
+    technique_ = technique;
+    if (technique == Technique::compute && !options.listed) {
         table::require_for_device(call, query, options);
         if (device_ == nullptr) {
             start_anew();
@@ -317,8 +315,10 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
     } else {
         if (needs_device) {
             refuse(call,
-                   "commands of the host, poses that they write and results on the device are for "
-                   "Technique::compute; the table is answered by Technique::cpu");
+                   std::string("commands of the host, poses that they write and results on the "
+                               "device are for Technique::compute; the table ") +
+                       (technique == Technique::compute ? "has a list of pairs"
+                                                        : "is answered by Technique::cpu"));
         }
         if (device_ != nullptr) {
             start_anew();
@@ -343,7 +343,7 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
     answer(call, world, input);
     is_submitted_ = true;
     timings.total = total.milliseconds();
-    timings.decode = timings.total - timings.plan;
+    timings.decode = timings.total - timings.plan - timings.device;
 }
 
 void PairTableBase::State::finish() {
@@ -466,7 +466,7 @@ const Status& PairTableBase::read_status() const noexcept {
     return state_->read_status;
 }
 
-/// The rows of a table of one kind, and how the CPU answers them.
+/// The rows of a table of one kind, and how they are answered unless the device finds the pairs.
 template <class Query>
 struct PairTable<Query>::Rows final : State {
     using Row = PairRow<Query>;
@@ -520,7 +520,7 @@ struct PairTable<Query>::Rows final : State {
 
 private:
     void answer(const char* call, const WorldView& world, const PairTableInput& input) override {
-        const Query query = asked_of_cpu(call);
+        const Query query = asked(call, world.context);
         world.prepare();
         if (world_.lock() != world.identity) {
             forget_answers();
@@ -572,12 +572,10 @@ private:
         return row;
     }
 
-    [[nodiscard]] Query asked_of_cpu(const char* call) const {
+    [[nodiscard]] Query asked(const char* call, const Context::Implementation& context) const {
         Query query = std::get<Query>(this->query);
-        query.technique = Technique::cpu;
-        if (Status status = plan::check_query(query, {}); !status.ok()) {
-            refuse(call, status.message());
-        }
+        query.technique = technique_;
+        require_answered(call, query, context);
         if (options.listed && has_motions) {
             refuse(call, "times of impact are not asked of a list of pairs");
         }
@@ -647,16 +645,15 @@ private:
     template <class PairOf>
     void answer_pairs(const WorldView& world, const Query& query, std::size_t count,
                       const PairOf& pair_of) {
+        const bool is_by_cpu = technique_ == Technique::cpu;
+        answer_count_ = is_by_cpu ? static_cast<std::uint32_t>(count) : 0;
         if constexpr (requires { table::is_answered_in_place(query); }) {
-            if (table::is_answered_in_place(query)) {
+            if (is_by_cpu && table::is_answered_in_place(query)) {
                 answer_in_place(world.instances, query, count, pair_of);
-            } else {
-                answer_by_batches(world, query, count, pair_of);
+                return;
             }
-        } else {
-            answer_by_batches(world, query, count, pair_of);
         }
-        answer_count_ = static_cast<std::uint32_t>(count);
+        answer_by_batches(world, query, count, pair_of);
     }
 
     template <class PairOf>
@@ -702,6 +699,7 @@ private:
                 pairs_of_batch_.push_back(pair);
             }
             world.context.ring().run(batch_, results_);
+            timings.device += results_.timings.device;
             checkpoint();  // what was cut must not look whole
             for (std::size_t i = 0; i < pairs_of_batch_.size(); ++i) {
                 add_row(world.instances.handle(pairs_of_batch_[i].a),

@@ -35,15 +35,16 @@ struct PairTableBase::State {
     Status read_status;
 
 protected:
-    /// Answers all pairs on the CPU. `call`: for messages.
+    /// Answers all pairs, or those of a list by any technique. `call`: for messages.
     virtual void answer(const char* call, const WorldView& world, const PairTableInput& input) = 0;
     /// Forgets what answer() keeps.
     virtual void forget_answers() = 0;
     /// Forgets the rows of the device that were made exact.
     virtual void forget_exact_rows() = 0;
 
-    std::unique_ptr<DevicePairs> device_;  // null: the CPU answers
-    // By the CPU, at the last update.
+    std::unique_ptr<DevicePairs> device_;  // that finds the pairs; null: answer() does
+    Technique technique_{};                // of the last update
+    // By answer(), at the last update.
     std::uint32_t row_count_ = 0;
     std::uint32_t candidate_count_ = 0;
     std::uint32_t answer_count_ = 0;
@@ -63,7 +64,7 @@ private:
     void finish();
 
     Context::Implementation* context_ = nullptr;  // of the last submission
-    bool is_submitted_ = false;                   // answered by the CPU, and not collected
+    bool is_submitted_ = false;                   // to answer(), and not collected
 };
 
 }  // namespace nearfield

@@ -149,10 +149,10 @@ protected:
 
     /// Updates both tables, and compares all that they say.
     template <class Query>
-    void compare(Tables<Query>& tables) {
-        const Status status = world().update(tables.device);
+    void compare(Tables<Query>& tables, const PairTableInput& input = {}) {
+        const Status status = world().update(tables.device, input);
         ASSERT_TRUE(status.ok()) << status.text();
-        ASSERT_TRUE(world().update(tables.cpu).ok());
+        ASSERT_TRUE(world().update(tables.cpu, input).ok());
         ASSERT_EQ(tables.device.size(), tables.cpu.size());
         EXPECT_GE(tables.device.candidates(), tables.device.size());
         double tolerance = 0.0;

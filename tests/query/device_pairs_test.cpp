@@ -1,3 +1,5 @@
+#include <nearfield/device_poses.hpp>
+
 #include <tests/query/device_pairs.hpp>
 
 #include <algorithm>
@@ -158,6 +160,61 @@ TEST_F(DevicePairs, FollowAShapeThatDeforms) {
     ASSERT_TRUE(context().update_shape(shape, rectangle({-3.0, -3.0}, {3.0, 3.0})).ok());
     ASSERT_TRUE(world().update(table).ok());
     EXPECT_EQ(table.size(), 2U);
+}
+
+/// Pairs of the caller's own list: any, some twice, some of an instance with itself.
+TEST_F(DevicePairs, OfAListAreThoseOfTheCpu) {
+    Random random(seed + 6000);
+    std::vector<InstanceHandle> instances;
+    for (const Rings& rings : some_shapes(random)) {
+        instances.push_back(add(add_shape(rings), any_pose(random, 1.0)));
+    }
+    std::vector<InstanceHandle> a;
+    std::vector<InstanceHandle> b;
+    for (int pair = 0; pair < 100; ++pair) {
+        const auto any = [&] {
+            return instances[static_cast<std::size_t>(
+                random.whole(0, static_cast<int>(instances.size()) - 1))];
+        };
+        a.push_back(any());
+        b.push_back(any());
+    }
+    const auto compare_lists = [&]<class Query>(const Query& query) {
+        for (const bool hits_only : {false, true}) {
+            Tables<Query> tables(query);
+            PairTableOptions options{.hits_only = hits_only, .listed = true};
+            options.technique = Technique::compute;
+            tables.device = PairTable<Query>(query, options);
+            options.technique = Technique::cpu;
+            tables.cpu = PairTable<Query>(query, options);
+            compare(tables, {.a = a, .b = b});
+            EXPECT_EQ(tables.device.candidates(), a.size());
+            EXPECT_EQ(tables.device.left_to_cpu(), 0U);
+        }
+    };
+    compare_lists(PenetrationQuery{.tolerance = 0.02});
+    compare_lists(PenetrationQuery{
+        .tolerance = 0.02, .points = PenetrationPoints::vertices, .summary_only = true});
+    compare_lists(ContactQuery{.tolerance = 0.02, .contact_distance = 0.05});
+    compare_lists(SeparationQuery{.tolerance = 0.02});
+}
+
+/// What stays on the device, and what is there, is of pairs that the device finds.
+TEST_F(DevicePairs, OfAListAreReadByTheHost) {
+    const InstanceHandle one[] = {add(add_shape(rectangle({0.0, 0.0}, {1.0, 1.0})), {})};
+    const PairTableOptions options{.listed = true, .technique = Technique::compute};
+    const auto refused = [&](auto query, const DevicePoses* poses = nullptr) {
+        PairTable table(query, options);
+        return world().update(table, {.a = one, .b = one, .poses = poses});
+    };
+    const DevicePoses poses{};
+    for (const Status& status : {refused(PenetrationQuery{.tolerance = 0.1, .on_device = true}),
+                                 refused(PenetrationQuery{.tolerance = 0.1}, &poses)}) {
+        EXPECT_EQ(status.code(), StatusCode::invalid_query);
+        EXPECT_NE(status.message().find("the table has a list of pairs"), std::string::npos)
+            << status.message();
+    }
+    EXPECT_EQ(refused(IntersectionTestQuery{}).code(), StatusCode::invalid_query);
 }
 
 TEST_F(DevicePairs, BeyondTheMemoryLimitAreRefused) {

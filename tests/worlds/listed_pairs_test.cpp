@@ -297,8 +297,6 @@ TEST_F(WorldListedSquares, AskTheCpu) {
     PenetrationQuery query;
     EXPECT_EQ(refused(query, of_list).find("update: the tolerance is 0"), 0U);
     query.tolerance = 0.1;
-    EXPECT_EQ(refused(query, {.listed = true, .technique = Technique::compute}),
-              "update: Technique::compute finds its pairs; a list of them is for Technique::cpu");
     EXPECT_EQ(refused(query, {.technique = Technique::cpu}),
               "update: pairs are given to a table that finds its own");
     query.technique = Technique::compute;
