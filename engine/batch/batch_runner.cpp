@@ -72,7 +72,6 @@ void BatchRunner::make_tile_batches() {
         planning_->builder.forget_shapes();
         build_tile_batches();
     }
-    planning_->pairs.build(plan_, planning_->rule.largest_range, pairs_);
     resident_outputs_builder_.build(plan_, tile_batches, results_.results,
                                     renderer_ == nullptr ? 0 : renderer_->expected_records(),
                                     resident_);
@@ -135,7 +134,8 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
                                             : render::SampleRoom::likely;
         renderer_->prepare(std::span(tile_batches_).first(plan_.tile_batches), resident_,
                            plan_.extent, room, *slot_, timings);
-        renderer_->prepare_search(planning_->pairs.shapes(), pairs_, room, *slot_, timings);
+        renderer_->prepare_search(planning_->planner.search_shapes(), plan_.pairs, room, *slot_,
+                                  timings);
         laps.next();
     }
 }
@@ -157,7 +157,7 @@ void BatchRunner::trim() noexcept {
 /// Resident samples need the device even without tile batches: to state that there are none.
 bool BatchRunner::has_device_work() const {
     return !for_device_.empty() &&
-           (plan_.tile_batches > 0 || !pairs_.directions.empty() || !resident_.empty());
+           (plan_.tile_batches > 0 || !plan_.pairs.directions.empty() || !resident_.empty());
 }
 
 void BatchRunner::solve(Laps& laps) {
@@ -382,8 +382,8 @@ std::optional<std::size_t> BatchRunner::only_query_on_device() const {
     for (const plan::Tile& tile : plan_.tiles) {
         add(tile.query);
     }
-    for (const plan::SearchedQuery& searched : plan_.searched) {
-        add(searched.query);
+    for (const plan::SearchDirectionData& searched : plan_.pairs.directions) {
+        add(searched.a);
     }
     // Even without tiles these have passes that state that there is nothing.
     for (const plan::SamplesOutput& samples : resident_.samples) {

@@ -4,7 +4,6 @@
 #include <engine/batch/technique_choice.hpp>
 #include <engine/plan/checked_query.hpp>
 #include <engine/plan/planner.hpp>
-#include <engine/plan/point_search.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/readback/device_answers.hpp>
@@ -32,7 +31,6 @@ struct Planning {
     solvers::SolverJobs solvers;
     plan::Planner planner;
     plan::TileBatchBuilder builder;
-    plan::GivenPairsBuilder pairs;
     readback::ResultWriter writer;
 
     Planning(const plan::PlanLimits& limits_of_device,
@@ -151,7 +149,6 @@ private:
     // Only if a device answers some of the queries.
     plan::Plan plan_;
     std::vector<plan::TileBatch> tile_batches_;  // the first Plan::tile_batches of them
-    plan::GivenPairs pairs_;                     // that the device searches
     resident::ResidentOutputsBuilder resident_outputs_builder_;
     plan::ResidentOutputs resident_;
     readback::DeviceAnswers answers_;

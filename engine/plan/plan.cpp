@@ -6,7 +6,7 @@ void Plan::clear() {
     // Everything but the queries: the planner overwrites each of them, and clearing thousands would
     // write them twice.
     resident.clear();
-    searched.clear();
+    pairs.clear();
     with_gradient_normals.clear();
     tiles.clear();
     points.clear();

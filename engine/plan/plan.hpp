@@ -75,7 +75,7 @@ struct PlannedFieldPoint {
 /// Who decides which points of a boundary matter to a query.
 enum class PointSource : std::uint8_t {
     planner,  ///< they are in Plan::points
-    device,   ///< Technique::compute: its search between pairs (Plan::searched) finds them
+    device,   ///< Technique::compute: its search between pairs (Plan::pairs) finds them
 };
 
 /// The points of A's boundary that a query, or one direction of it, resolves in the field of B.
@@ -122,15 +122,19 @@ struct PlannedQuery : CheckedQuery {
     }
 };
 
-/// A query, or one direction of it, whose points the device searches: all that the search needs to
-/// know, close together, as plans of thousands of queries exceed the processor's caches.
-struct SearchedQuery {
-    std::uint32_t query = 0;  ///< in Plan::queries
-    const geometry::Polygon* a = nullptr;
-    const geometry::Polygon* b = nullptr;
-    double spacing = 0.0;      ///< of the samples; 0: vertices are asked for
-    double max_points = 0.0;   ///< as max_points() has it
-    SearchDirectionData data;  ///< except for its places in the input
+/// The pairs that a batch gives to the device's search: queries, or directions of them, whose
+/// points it finds.
+struct GivenPairs {
+    std::vector<SearchDirectionData> directions;  ///< `a`: the query's place in Plan::queries
+    std::uint32_t items = 0;
+    double max_edges = 0.0;  ///< upper bounds on what the device may find
+    double max_points = 0.0;
+
+    void clear() {
+        directions.clear();
+        items = 0;
+        max_edges = max_points = 0.0;
+    }
 };
 
 /// Indices of an array, sorted by tile batch; original order within each tile batch.
@@ -173,7 +177,7 @@ struct Plan {
     /// queries.
     std::vector<PlannedQuery> queries;
     std::vector<std::uint32_t> resident;  ///< queries whose results stay on the device as well
-    std::vector<SearchedQuery> searched;
+    GivenPairs pairs;                     ///< that the device searches
     /// Contact queries with gradient normals.
     std::vector<std::uint32_t> with_gradient_normals;
     std::vector<Tile> tiles;

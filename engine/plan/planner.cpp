@@ -23,7 +23,10 @@ void Planner::plan(std::span<const CheckedQuery> queries, Plan& plan,
     for (const CheckedQuery& checked : queries) {
         checkpoint();
         const QueryTimer timer(plan.times, checked.index, &QueryTime::plan);
-        static_cast<CheckedQuery&>(plan.queries[checked.index] = {}) = checked;
+        PlannedQuery& planned = plan.queries[checked.index];
+        static_cast<CheckedQuery&>(planned) = checked;
+        planned.on_device = false;
+        planned.work = std::monostate();
         std::visit(
             [&]<class Query>(const Query& query) {
                 auto& result = std::get<typename Query::Result>(results[checked.index]);
@@ -33,6 +36,7 @@ void Planner::plan(std::span<const CheckedQuery> queries, Plan& plan,
             },
             *checked.query);
     }
+    points_.finish(limits_, plan);
     plan.result_bytes = memory.result_bytes();
     packer_.pack(plan);
 }

@@ -27,6 +27,8 @@ public:
     /// in one query is stored in its result and leaves it without tiles. `results`: of the whole
     /// batch. Throws StatusException (too_large) if the batch needs more memory than the limit.
     void plan(std::span<const CheckedQuery> queries, Plan& plan, std::vector<AnyResult>& results);
+    /// The shapes that the device searches.
+    [[nodiscard]] const SearchShapes& search_shapes() const { return points_.search_shapes(); }
 
 private:
     /// Plans a query, or states in its result why it is rejected.

@@ -87,45 +87,6 @@ bool check_resident(bool both_ways, const CurrentQuery& current, ResultSummary& 
     return false;
 }
 
-void add_search(std::uint32_t direction, const TransformedPolygon& a, const TransformedPolygon& b,
-                Plan& plan) {
-    PlannedQuery& planned = plan.queries[direction];
-    const geometry::Vector axis = b.rotation().transpose() * a.rotation().col(0);
-    plan.searched.push_back(searched_query(direction, planned, axis, b.to_local(a.translation())));
-    planned.points().margin = plan.searched.back().data.margin * unit_length_of(*planned.b);
-}
-
-/// Leaves the points of the query to the device's search, and with `both_ways` those of B as well:
-/// points inside, or up to `reach` outside.
-void search(double reach, bool both_ways, geometry::RecentlyPlaced& instances,
-            CurrentQuery& current, ResultSummary& result) {
-    PlannedQuery& planned = current.planned();
-    planned.points().source = PointSource::device;
-    const BoxedPolygon a = instances.place_with_box(*planned.a, planned.pose_a);
-    const BoxedPolygon b = instances.place_with_box(*planned.b, planned.pose_b);
-    if (!check_resident(both_ways, current, result) || !check_numbers(planned, a, b, result)) {
-        return;
-    }
-    const Box of_a = a.box.intersection(grown(b.box, reach));
-    const Box of_b = b.box.intersection(grown(a.box, reach));
-    const bool are_near = !of_a.isEmpty() && !of_b.isEmpty();
-    // What stays on the device says there that there is nothing.
-    const bool is_searched = are_near || planned.on_device;
-    if (are_near) {
-        const Box where = both_ways ? of_a.merged(of_b) : of_a;
-        result.regions.push_back(region_of(Grid::covering(where, planned.budget.cell)));
-    }
-    if (is_searched) {
-        add_search(current.index, a.placed, b.placed, current.plan);
-    }
-    if (both_ways) {
-        const std::uint32_t reverse = add_reverse(current);
-        if (is_searched) {
-            add_search(reverse, b.placed, a.placed, current.plan);
-        }
-    }
-}
-
 /// Finds the chains of A that can penetrate; returns an upper bound on the points asked for.
 double find_inside(const PenetrationQuery& query, CurrentQuery& current, std::vector<Chain>& chains,
                    ResultSummary& result) {
@@ -155,6 +116,43 @@ double find_near(const TransformedPolygon& a, const TransformedPolygon& b, doubl
 PointPlanner::PointPlanner(const PlanLimits& limits)
     : tiles_(std::min(limits.points_tile, limits.largest_tile)) {}
 
+void PointPlanner::add_search(std::uint32_t direction, const TransformedPolygon& a,
+                              const TransformedPolygon& b, Plan& plan) {
+    PlannedQuery& planned = plan.queries[direction];
+    const geometry::Vector axis = b.rotation().transpose() * a.rotation().col(0);
+    planned.points().margin =
+        pairs_.add(direction, planned, axis, b.to_local(a.translation()), plan.pairs);
+}
+
+void PointPlanner::search(double reach, bool both_ways, CurrentQuery& current,
+                          ResultSummary& result) {
+    PlannedQuery& planned = current.planned();
+    planned.points().source = PointSource::device;
+    const BoxedPolygon a = instances_.place_with_box(*planned.a, planned.pose_a);
+    const BoxedPolygon b = instances_.place_with_box(*planned.b, planned.pose_b);
+    if (!check_resident(both_ways, current, result) || !check_numbers(planned, a, b, result)) {
+        return;
+    }
+    const Box of_a = a.box.intersection(grown(b.box, reach));
+    const Box of_b = b.box.intersection(grown(a.box, reach));
+    const bool are_near = !of_a.isEmpty() && !of_b.isEmpty();
+    // What stays on the device says there that there is nothing.
+    const bool is_searched = are_near || planned.on_device;
+    if (are_near) {
+        const Box where = both_ways ? of_a.merged(of_b) : of_a;
+        result.regions.push_back(region_of(Grid::covering(where, planned.budget.cell)));
+    }
+    if (is_searched) {
+        add_search(current.index, a.placed, b.placed, current.plan);
+    }
+    if (both_ways) {
+        const std::uint32_t reverse = add_reverse(current);
+        if (is_searched) {
+            add_search(reverse, b.placed, a.placed, current.plan);
+        }
+    }
+}
+
 void PointPlanner::add_samples(std::uint32_t direction, const Box& within, CurrentQuery& current) {
     Plan& plan = current.plan;
     PlannedQuery& planned = plan.queries[direction];
@@ -172,7 +170,7 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
     if (planned.technique == Technique::compute) {
         // Of points that are only counted the device leaves out those that cannot be the deepest.
         points.summarized = query.summary_only;
-        search(0.0, false, instances_, current, result);
+        search(0.0, false, current, result);
         return;
     }
     if (!check_numbers(planned, result)) {
@@ -209,7 +207,7 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
     }
     const double near = query.contact_distance;
     if (planned.technique == Technique::compute) {
-        search(near, true, instances_, current, result);
+        search(near, true, current, result);
         return;
     }
     if (!check_numbers(planned, result)) {

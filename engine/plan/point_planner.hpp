@@ -4,6 +4,7 @@
 #include <engine/localize/closest.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/plan/current_query.hpp>
+#include <engine/plan/point_search.hpp>
 #include <engine/plan/point_tiles.hpp>
 #include <engine/plan/regions.hpp>
 #include <nearfield/result.hpp>
@@ -29,7 +30,17 @@ public:
     void plan(const ClosestPointQuery& query, CurrentQuery& current, ClosestPointResult& result);
     void plan(const SeparationQuery& query, CurrentQuery& current, SeparationResult& result);
 
+    /// After the last query of a batch.
+    void finish(const PlanLimits& limits, Plan& plan) { pairs_.fit(limits.largest_range, plan); }
+    /// Those that the device searches.
+    [[nodiscard]] const SearchShapes& search_shapes() const { return pairs_.shapes(); }
+
 private:
+    /// Leaves the points of the query to the device's search, and with `both_ways` those of B as
+    /// well: points inside, or up to `reach` outside.
+    void search(double reach, bool both_ways, CurrentQuery& current, ResultSummary& result);
+    void add_search(std::uint32_t direction, const geometry::TransformedPolygon& a,
+                    const geometry::TransformedPolygon& b, Plan& plan);
     /// Samples the chains of A; `samples` is an upper bound on their number.
     void add_deepest(const PenetrationQuery& query, double samples, CurrentQuery& current,
                      PenetrationResult& result);
@@ -48,6 +59,7 @@ private:
     geometry::RecentlyPlaced instances_{1024};  // whose points the device searches
     simd::TransformedInstances tested_;
     narrowphase::OverlapTest overlap_test_;
+    GivenPairsBuilder pairs_;
     localize::ClosestChains closest_;
     std::array<std::vector<localize::Chain>, 2> chains_;  // A and B
     Regions regions_;

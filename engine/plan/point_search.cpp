@@ -35,7 +35,7 @@ SearchDirectionData direction_of(const PlannedQuery& query, const Vector& axis,
     const double extent = (query.a->radius() + query.b->radius()) / unit + offset_in_units.norm();
     const double cell = query.budget.cell / unit;
     data.reach = query.points().outside ? rounded_up(reach_of(query) / unit) : 0.0F;
-    data.margin = rounded_up(std::ldexp(extent, -20));
+    data.margin = rounded_up(0x1p-20 * extent);
     data.rival = static_cast<float>(cell / std::numbers::sqrt2 * uniqueness_margin);
     data.outside = query.points().outside ? 1.0F : 0.0F;
     data.doubt = data.margin > search_precision * cell ? data.rival + 4.0F * data.margin : -1.0F;
@@ -47,51 +47,44 @@ SearchDirectionData direction_of(const PlannedQuery& query, const Vector& axis,
 
 }  // namespace
 
-SearchedQuery searched_query(std::uint32_t index, const PlannedQuery& query, const Vector& axis,
-                             const Vector& offset) {
-    return {index,
-            query.a,
-            query.b,
-            asks_for_vertices(query) ? 0.0 : query.budget.cell,
-            max_points(query),
-            direction_of(query, axis, offset)};
-}
-
 void FoundPlaces::enter(std::uint32_t edge) {
     const std::span<const Vector> vertices = a_.vertices();
     edge_ = edge;
     parts_ = parts_of_length((vertices[a_.next(edge)] - vertices[edge]).norm(), cell_);
 }
 
-void GivenPairsBuilder::build(const Plan& plan, std::uint64_t largest_range, GivenPairs& pairs) {
-    pairs.clear();
-    if (plan.searched.empty()) {
-        return;
+double GivenPairsBuilder::add(std::uint32_t index, const PlannedQuery& query, const Vector& axis,
+                              const Vector& offset, GivenPairs& pairs) {
+    if (pairs.directions.empty()) {
+        shapes_.begin_batch();
     }
-    shapes_.begin_batch();
-    fill(plan, pairs);
-    if (shapes_.units().size_bytes() > largest_range) {
-        shapes_.clear();
-        pairs.clear();
-        fill(plan, pairs);
+    SearchDirectionData& data = pairs.directions.emplace_back(direction_of(query, axis, offset));
+    data.a = index;
+    place(query, data);
+    data.first_item = pairs.items;
+    pairs.items += shapes_.units()[data.shape_a][0];  // its number of chunks
+    pairs.max_edges += static_cast<double>(query.a->size());
+    pairs.max_points += max_points(query);
+    return static_cast<double>(data.margin) * unit_length_of(*query.b);
+}
+
+void GivenPairsBuilder::place(const PlannedQuery& query, SearchDirectionData& data) {
+    data.shape_a = shapes_.place(*query.a);
+    data.shape_b = shapes_.place(*query.b);
+    if (!asks_for_vertices(query)) {
+        data.parts = shapes_.place_parts(*query.a, query.budget.cell);
     }
 }
 
-void GivenPairsBuilder::fill(const Plan& plan, GivenPairs& pairs) {
+void GivenPairsBuilder::fit(std::uint64_t largest_range, Plan& plan) {
+    if (plan.pairs.directions.empty() || shapes_.units().size_bytes() <= largest_range) {
+        return;
+    }
+    shapes_.clear();
     SparseCheckpoint<64> checkpoint;
-    for (const SearchedQuery& searched : plan.searched) {
+    for (SearchDirectionData& data : plan.pairs.directions) {
         checkpoint.step();
-        SearchDirectionData& data = pairs.directions.emplace_back(searched.data);
-        data.a = searched.query;
-        data.shape_a = shapes_.place(*searched.a);
-        data.shape_b = shapes_.place(*searched.b);
-        if (searched.spacing > 0.0) {
-            data.parts = shapes_.place_parts(*searched.a, searched.spacing);
-        }
-        data.first_item = pairs.items;
-        pairs.items += shapes_.units()[data.shape_a][0];  // its number of chunks
-        pairs.max_edges += static_cast<double>(searched.a->size());
-        pairs.max_points += searched.max_points;
+        place(plan.queries[data.a], data);
     }
 }
 

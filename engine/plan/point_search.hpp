@@ -14,12 +14,6 @@ namespace nearfield::plan {
 /// boundary that a query asks for, the side of B's boundary on which they lie, and the nearest edge
 /// of B, with nothing planned on the CPU (shaders/search.h).
 
-/// The search for a query, or one direction of it. `axis`, `offset`: A's frame in B's, both
-/// relative to the centres of the shapes.
-[[nodiscard]] SearchedQuery searched_query(std::uint32_t index, const PlannedQuery& query,
-                                           const geometry::Vector& axis,
-                                           const geometry::Vector& offset);
-
 /// The points of A's boundary that the device has found for a query, or one direction of it;
 /// fastest where consecutive points lie on the same edge.
 class FoundPlaces {
@@ -46,33 +40,26 @@ private:
     double parts_ = 1.0;
 };
 
-/// The pairs that a batch gives to the device's search, as it takes them.
-struct GivenPairs {
-    std::vector<SearchDirectionData> directions;
-    std::uint32_t items = 0;
-    double max_edges = 0.0;  ///< upper bounds on what the device may find
-    double max_points = 0.0;
-
-    void clear() {
-        directions.clear();
-        items = 0;
-        max_edges = max_points = 0.0;
-    }
-};
-
 /// Points of A's boundary at most, of a query or a pair.
 inline constexpr double max_searched_points = 1U << 21U;
 
-/// Turns the searched queries of a plan into the device's input.
+/// Makes the pairs that a plan gives to the device's search.
 class GivenPairsBuilder {
 public:
-    /// Shapes of earlier plans are kept as long as all take no more than `largest_range` bytes.
-    void build(const Plan& plan, std::uint64_t largest_range, GivenPairs& pairs);
-    /// The shapes of the last build, and more.
+    /// Adds a query, or one direction of it, with this index in the plan. `axis`, `offset`: A's
+    /// frame in B's, both relative to the centres of the shapes. Returns a bound on the errors of
+    /// single precision, world units.
+    double add(std::uint32_t index, const PlannedQuery& query, const geometry::Vector& axis,
+               const geometry::Vector& offset, GivenPairs& pairs);
+    /// After the last one: forgets the shapes of earlier plans if all take more than
+    /// `largest_range` bytes.
+    void fit(std::uint64_t largest_range, Plan& plan);
+    /// Those of the pairs, and more.
     [[nodiscard]] const SearchShapes& shapes() const { return shapes_; }
 
 private:
-    void fill(const Plan& plan, GivenPairs& pairs);
+    /// Says where the shapes are in the input.
+    void place(const PlannedQuery& query, SearchDirectionData& data);
 
     SearchShapes shapes_;
 };

@@ -47,7 +47,7 @@ struct FieldOutputs {
 
 /// What the search finds in one direction of a query.
 struct RecordRunOutput {
-    std::uint32_t direction = 0;  ///< in Plan::searched
+    std::uint32_t direction = 0;  ///< in Plan::pairs
     std::uint32_t blocks = 0;     ///< of points, at most
     std::uint32_t flags = 0;      ///< point_flags of its records
     vec2 frame_axis;              ///< as in SearchPush

@@ -42,7 +42,8 @@ std::uint32_t chunks_for(std::uint32_t edges) {
 }  // namespace
 
 double unit_length_of(const Polygon& polygon) {
-    return std::ldexp(1.0, std::ilogb(polygon.radius()));
+    constexpr std::uint64_t without_mantissa = 0xfff0'0000'0000'0000U;
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(polygon.radius()) & without_mantissa);
 }
 
 float rounded_up(double value) {

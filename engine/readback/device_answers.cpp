@@ -11,7 +11,7 @@ using plan::Tile;
 void DeviceAnswers::begin_batch(const plan::Plan& plan) {
     // Points that no tile batch answers are left to the CPU.
     words_.assign(plan.points.size(), plan::point_resolved | plan::point_doubtful);
-    pairs_.begin(plan.searched.empty() ? 0 : plan.queries.size());
+    pairs_.begin(plan.pairs.directions.empty() ? 0 : plan.queries.size());
     samples_.clear();
     fields_.begin_batch(plan);
 }

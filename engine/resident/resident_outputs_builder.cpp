@@ -41,9 +41,9 @@ vec2 rounded(const Vector& vector) {
 
 /// Of points that the search looks at, at most: the threads of a direction, and of each of its
 /// blocks of edges, may have room for a few more.
-std::uint32_t blocks_of(const plan::SearchedQuery& searched) {
+std::uint32_t blocks_of(const PlannedQuery& searched, double max_points) {
     const double parts = 2.0 + static_cast<double>(searched.a->size()) / plan::search_block;
-    const double points = searched.max_points + (plan::points_per_thread - 1.0) * parts;
+    const double points = max_points + (plan::points_per_thread - 1.0) * parts;
     return static_cast<std::uint32_t>(points / plan::points_per_block) + 1;
 }
 
@@ -145,17 +145,19 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan, std::uint32_t q
     records.origin = b.translation();
     records.first_run = static_cast<std::uint32_t>(resident.record_runs.size());
     const auto add = [&](std::uint32_t direction, const TransformedPolygon& in) {
+        const auto& directions = plan.pairs.directions;
         const auto found = std::find_if(
-            plan.searched.begin() + searched_, plan.searched.end(),
-            [direction](const plan::SearchedQuery& one) { return one.query == direction; });
-        searched_ = static_cast<std::uint32_t>(found - plan.searched.begin());
+            directions.begin() + searched_, directions.end(),
+            [direction](const plan::SearchDirectionData& one) { return one.a == direction; });
+        searched_ = static_cast<std::uint32_t>(found - directions.begin());
+        const double max_points = plan::max_points(plan.queries[direction]);
         plan::RecordRunOutput& run = resident.record_runs.emplace_back();
         run.direction = searched_;
-        run.blocks = blocks_of(*found);
+        run.blocks = blocks_of(plan.queries[direction], max_points);
         run.flags = records.run_count == 0 ? 0 : point_flags::on_b;
         run.frame_axis = rounded(plan::unit_length_of(in.polygon()) * in.rotation().col(0));
         run.frame_place = rounded(in.translation() - records.origin);
-        records.max_capacity += static_cast<std::uint32_t>(std::ceil(found->max_points));
+        records.max_capacity += static_cast<std::uint32_t>(std::ceil(max_points));
         ++records.run_count;
     };
     add(query, b);

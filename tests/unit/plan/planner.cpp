@@ -207,7 +207,7 @@ TEST_F(PlannerTest, TheDeviceSearchesForContactsAsFarAsTheyReach) {
     const auto searched_at = [&](double gap) {
         query.b.pose.translation = {10.0 + gap, 0.0};
         run({query});
-        return plan_.searched.size();
+        return plan_.pairs.directions.size();
     };
     EXPECT_EQ(searched_at(-1.0), 2U) << "points of either boundary";
     EXPECT_EQ(searched_at(0.49), 2U);
@@ -219,7 +219,7 @@ TEST_F(PlannerTest, PointsThatTheDeviceSearchesCountOnceTheyAreFound) {
     penetration_.b.pose = {{1.0, 1.0}, 0.0};
     constexpr std::size_t many = 10'000;
     run(std::vector<AnyQuery>(many, penetration_));
-    EXPECT_EQ(plan_.searched.size(), many);
+    EXPECT_EQ(plan_.pairs.directions.size(), many);
     EXPECT_TRUE(plan_.tiles.empty());
     EXPECT_EQ(plan_.result_bytes, 0.0);
 }

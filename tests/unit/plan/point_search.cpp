@@ -39,9 +39,8 @@ protected:
         build();
     }
     void build() {
-        plan_.searched.assign(1, searched_query(0, plan_.queries.front(), geometry::Vector::UnitX(),
-                                                geometry::Vector::Zero()));
-        builder_.build(plan_, std::uint64_t{1} << 27U, pairs_);
+        plan_.clear();
+        add(1);
         ASSERT_EQ(search().directions.size(), 1U);
     }
 
@@ -57,16 +56,15 @@ protected:
         plan_.queries.front().budget = penetration_budget(penetration);
         plan_.queries.front().points().summarized = summarized;
     }
-    /// Those of so many queries like the one that was built.
-    [[nodiscard]] GivenPairs pairs_of(std::size_t queries) {
-        plan_.searched.assign(queries, plan_.searched.front());
-        for (std::uint32_t i = 0; i < queries; ++i) {
-            plan_.searched[i].query = i;
+    /// Adds so many directions like that of the query.
+    void add(std::uint32_t count) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const auto place = static_cast<std::uint32_t>(search().directions.size());
+            static_cast<void>(builder_.add(place, plan_.queries.front(), geometry::Vector::UnitX(),
+                                           geometry::Vector::Zero(), plan_.pairs));
         }
-        GivenPairs pairs;
-        builder_.build(plan_, std::uint64_t{1} << 27U, pairs);
-        return pairs;
     }
+    void fit(std::uint64_t bytes) { builder_.fit(bytes, plan_); }
     void ask_for_contacts_within(double distance) {
         ContactQuery contacts;
         contacts.contact_distance = distance;
@@ -75,7 +73,7 @@ protected:
     }
 
     [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().units().size(); }
-    [[nodiscard]] const GivenPairs& search() const { return pairs_; }
+    [[nodiscard]] const GivenPairs& search() const { return plan_.pairs; }
     [[nodiscard]] const SearchUnit& unit(std::size_t index) const {
         return builder_.shapes().units()[index];
     }
@@ -162,7 +160,6 @@ private:
     AnyQuery query_;
     Plan plan_;
     GivenPairsBuilder builder_;
-    GivenPairs pairs_;
 
 protected:
     geometry::Polygon a_;
@@ -211,6 +208,22 @@ TEST_F(PointSearchInput, ForgetsShapesThatAreNoLongerUsed) {
     EXPECT_LT(largest, 4096U + 5 * 4 * 150);
 }
 
+TEST_F(PointSearchInput, ForgetsEarlierShapesWhereAllTakeTooMuch) {
+    Random random(24);
+    std::vector<geometry::Polygon> polygons(2);
+    for (geometry::Polygon& polygon : polygons) {
+        ASSERT_TRUE(polygon.assign(test::star(random, 100, 0.3)).ok());
+        use(polygon, polygon);
+        build();
+    }
+    const std::size_t of_both = builder_size();
+    fit(of_both * sizeof(SearchUnit));
+    EXPECT_EQ(builder_size(), of_both);
+    fit(of_both * sizeof(SearchUnit) - 1);
+    EXPECT_EQ(builder_size(), of_both / 2);
+    check(search().directions.front().shape_a, polygons.back());
+}
+
 TEST_F(PointSearchInput, HasNearbyRingsInOneBoxWhateverTheirOrder) {
     Random random(23);
     Rings islands;
@@ -255,8 +268,9 @@ TEST_F(PointSearchInput, MarginCoversSixteenRoundings) {
 TEST_F(PointSearchInput, FollowOneAnother) {
     build(test::regular(40), test::regular(40));
     const double points = search().max_points;
-    constexpr std::size_t queries = 50;
-    const GivenPairs pairs = pairs_of(queries);
+    constexpr std::uint32_t queries = 50;
+    add(queries - 1);
+    const GivenPairs& pairs = search();
     ASSERT_EQ(pairs.directions.size(), queries);
     for (std::uint32_t i = 0; i < queries; ++i) {
         EXPECT_EQ(pairs.directions[i].a, i);
