@@ -77,7 +77,8 @@ void BatchRunner::make_tile_batches() {
                                     resident_);
 }
 
-/// Divides the queries between the CPU and the device. Those that are rejected are left to neither.
+/// Divides the queries between the CPU and the device, and plans what the device answers. Those
+/// that are rejected are left to neither.
 void BatchRunner::check_queries(plan::Submissions submissions) {
     for_cpu_.clear();
     for_device_.clear();
@@ -88,14 +89,26 @@ void BatchRunner::check_queries(plan::Submissions submissions) {
         plan::CheckedQuery checked;
         if (plan::check(i, queries_[i], shapes_[i], planning_->limits, submissions, checked,
                         results_.results[i])) {
-            (checked.technique == Technique::cpu ? for_cpu_ : for_device_).push_back(checked);
+            take(checked);
         }
     }
 }
 
-/// Plans what the device answers, and makes what it needs.
-void BatchRunner::plan_batch() {
-    planning_->planner.plan(for_device_, plan_, results_.results);
+void BatchRunner::take(const plan::CheckedQuery& checked) {
+    if (checked.technique == Technique::cpu) {
+        for_cpu_.push_back(checked);
+        return;
+    }
+    if (for_device_.empty()) {
+        planning_->planner.begin(queries_.size(), plan_);
+    }
+    for_device_.push_back(checked.index);
+    planning_->planner.add(checked, plan_, results_.results[checked.index]);
+}
+
+/// Makes what the device needs.
+void BatchRunner::finish_plan() {
+    planning_->planner.finish(plan_);
     answers_.begin_batch(plan_);
     make_tile_batches();
     results_.timings.localize += plan_.localize_milliseconds;
@@ -117,7 +130,7 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
         choose_techniques(queries_, shapes_, planning_->rule);
         check_queries(submissions);
         if (!for_device_.empty()) {
-            plan_batch();
+            finish_plan();
         }
     } catch (const Interrupted& interrupted) {
         for_cpu_.clear();
@@ -334,13 +347,14 @@ void BatchRunner::solve_what_had_no_room() {
         return;
     }
     for_cpu_.clear();
-    for (const plan::CheckedQuery& checked : for_device_) {
-        if (plan_.queries[checked.index].has_points_of(plan::PointSource::device)) {
+    for (const std::uint32_t index : for_device_) {
+        const plan::PlannedQuery& planned = plan_.queries[index];
+        if (planned.has_points_of(plan::PointSource::device)) {
             ResultSummary& result = std::visit([](auto& any) -> ResultSummary& { return any; },
-                                               results_.results[checked.index]);
+                                               results_.results[index]);
             result.regions.clear();  // of the search
             if (result.status.ok()) {
-                for_cpu_.push_back(checked);
+                for_cpu_.push_back(planned);
             }
         }
     }

@@ -121,6 +121,7 @@ private:
                plan::Submissions submissions, Laps& laps);
     [[nodiscard]] bool has_device_work() const;
     void check_queries(plan::Submissions submissions);
+    void take(const plan::CheckedQuery& checked);
     void solve(Laps& laps);
     void solve_what_had_no_room();
     void begin_timings(std::size_t queries);
@@ -128,7 +129,7 @@ private:
     [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
     void make_tile_batches();
     void build_tile_batches();
-    void plan_batch();
+    void finish_plan();
     void wait();
     void read_back(Laps& laps);
     void take_found_pairs(bool was_recorded);
@@ -145,7 +146,7 @@ private:
     std::vector<AnyQuery> queries_;
     std::vector<plan::QueryShapes> shapes_;  // by query
     std::vector<plan::CheckedQuery> for_cpu_;
-    std::vector<plan::CheckedQuery> for_device_;
+    std::vector<std::uint32_t> for_device_;  // their places in the batch
     // Only if a device answers some of the queries.
     plan::Plan plan_;
     std::vector<plan::TileBatch> tile_batches_;  // the first Plan::tile_batches of them

@@ -1,7 +1,5 @@
-#include <engine/base/interruption.hpp>
 #include <engine/plan/empty_result.hpp>
 #include <engine/plan/planner.hpp>
-#include <engine/plan/query_timer.hpp>
 
 #include <type_traits>
 #include <utility>
@@ -14,30 +12,31 @@ Planner::Planner(const PlanLimits& limits)
       points_(limits_),
       packer_(limits_.largest_atlas) {}
 
-void Planner::plan(std::span<const CheckedQuery> queries, Plan& plan,
-                   std::vector<AnyResult>& results) {
-    MemoryBudget memory(limits_);
+void Planner::begin(std::size_t queries, Plan& plan) {
+    memory_.emplace(limits_);
     plan.clear();
     targets_.clear();
-    plan.queries.resize(results.size());
-    for (const CheckedQuery& checked : queries) {
-        checkpoint();
-        const QueryTimer timer(plan.times, checked.index, &QueryTime::plan);
-        PlannedQuery& planned = plan.queries[checked.index];
-        static_cast<CheckedQuery&>(planned) = checked;
-        planned.on_device = false;
-        planned.work = std::monostate();
-        std::visit(
-            [&]<class Query>(const Query& query) {
-                auto& result = std::get<typename Query::Result>(results[checked.index]);
-                CurrentQuery current{limits_, plan, checked.index,
-                                     QueryMemory(memory, checked.index, result.tolerance)};
-                plan_query(query, current, result);
-            },
-            *checked.query);
-    }
+    plan.queries.resize(queries);
+}
+
+void Planner::add(const CheckedQuery& checked, Plan& plan, AnyResult& any) {
+    PlannedQuery& planned = plan.queries[checked.index];
+    static_cast<CheckedQuery&>(planned) = checked;
+    planned.on_device = false;
+    planned.work = std::monostate();
+    std::visit(
+        [&]<class Query>(const Query& query) {
+            auto& result = std::get<typename Query::Result>(any);
+            CurrentQuery current{limits_, plan, checked.index,
+                                 QueryMemory(*memory_, checked.index, result.tolerance)};
+            plan_query(query, current, result);
+        },
+        *checked.query);
+}
+
+void Planner::finish(Plan& plan) {
     points_.finish(limits_, plan);
-    plan.result_bytes = memory.result_bytes();
+    plan.result_bytes = memory_->result_bytes();
     packer_.pack(plan);
 }
 

@@ -3,6 +3,7 @@
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/checked_query.hpp>
 #include <engine/plan/field_planner.hpp>
+#include <engine/plan/memory_budget.hpp>
 #include <engine/plan/overlap_planner.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/plan_limits.hpp>
@@ -10,23 +11,27 @@
 #include <engine/plan/tile_packer.hpp>
 #include <nearfield/result.hpp>
 
+#include <cstddef>
 #include <cstdint>
-#include <span>
-#include <vector>
+#include <optional>
 
 namespace nearfield::plan {
 
 /// Turns checked queries that a device answers into tiles and searches: has each planned by the
 /// planner of its kind, and packs all tiles of the batch. Keeps its scratch memory from batch to
-/// batch.
+/// batch. Fills a plan and, in results, everything known before rendering: bounds, regions.
 class Planner {
 public:
     explicit Planner(const PlanLimits& limits);
 
-    /// Fills `plan` and, in `results`, everything known before rendering: bounds, regions. An error
-    /// in one query is stored in its result and leaves it without tiles. `results`: of the whole
-    /// batch. Throws StatusException (too_large) if the batch needs more memory than the limit.
-    void plan(std::span<const CheckedQuery> queries, Plan& plan, std::vector<AnyResult>& results);
+    /// Begins a batch of so many queries, whoever answers them.
+    void begin(std::size_t queries, Plan& plan);
+    /// Plans one of them, which has just been checked. An error is stated in its result and leaves
+    /// it without tiles. Throws StatusException (too_large) if the batch needs more memory than the
+    /// limit.
+    void add(const CheckedQuery& query, Plan& plan, AnyResult& result);
+    /// After the last one.
+    void finish(Plan& plan);
     /// The shapes that the device searches.
     [[nodiscard]] const SearchShapes& search_shapes() const { return points_.search_shapes(); }
 
@@ -39,7 +44,8 @@ private:
     [[nodiscard]] Status add_target(const Query& query, std::uint32_t index);
 
     PlanLimits limits_;
-    Targets targets_;  // of the batch
+    Targets targets_;  // of the batch, as is the next
+    std::optional<MemoryBudget> memory_;
     PointPlanner points_;
     FieldPlanner fields_;
     OverlapPlanner overlaps_;

@@ -155,20 +155,20 @@ void ResultWriter::write(const Input& input, ClosestPointResult& result) {
     solvers::take_closest_point(std::move(separation), result);
 }
 
-void ResultWriter::write(const plan::Plan& plan, std::span<const plan::CheckedQuery> queries,
+void ResultWriter::write(const plan::Plan& plan, std::span<const std::uint32_t> queries,
                          DeviceAnswers& answers, plan::MemoryBudget& memory,
                          std::vector<AnyResult>& results) {
     answers.write_drawn_samples(results);
     // Other batches may have been answered in between.
     instances_.begin_batch();
     searched_ = nullptr;
-    for (const plan::CheckedQuery& query : queries) {
-        const PlannedQuery& planned = plan.queries[query.index];
+    for (const std::uint32_t index : queries) {
+        const PlannedQuery& planned = plan.queries[index];
         if (answers.pairs().are_left_to_cpu() && planned.has_points_of(plan::PointSource::device)) {
             continue;
         }
-        AnyResult& any = results[query.index];
-        const plan::QueryTimer timer(plan.times, query.index, &QueryTime::answer);
+        AnyResult& any = results[index];
+        const plan::QueryTimer timer(plan.times, index, &QueryTime::answer);
         try {
             std::visit(
                 [&](auto& result) {

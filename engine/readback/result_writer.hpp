@@ -25,7 +25,7 @@ public:
     /// that are gradients, and for points that the search had no room for: these are left to the
     /// CPU. Once the call is interrupted, results are empty and say so. Throws StatusException
     /// (too_large) if the points that the search has found exceed the memory of the batch.
-    void write(const plan::Plan& plan, std::span<const plan::CheckedQuery> queries,
+    void write(const plan::Plan& plan, std::span<const std::uint32_t> queries,
                DeviceAnswers& answers, plan::MemoryBudget& memory, std::vector<AnyResult>& results);
 
 private:

@@ -134,7 +134,8 @@ void measure(const Scene& scene, int frames) {
                 return shape.index < scene.shapes.size() ? &scene.shapes[shape.index] : nullptr;
             },
             shapes);
-        planner.plan(test::checked_queries(scene.queries, shapes, limits, results), plan, results);
+        test::plan_all(test::checked_queries(scene.queries, shapes, limits, results), planner, plan,
+                       results);
         const double middle = processor_milliseconds();
         builder.begin_batch();
         vertices = 0;

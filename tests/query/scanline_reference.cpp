@@ -132,7 +132,7 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     plan::Plan plan;
     std::vector<AnyResult> results;
     const std::vector<plan::QueryShapes> shapes{{&a, &b}};
-    planner.plan(checked_queries(queries, shapes, limits, results), plan, results);
+    plan_all(checked_queries(queries, shapes, limits, results), planner, plan, results);
     plan::TileBatchBuilder builder(limits.subpixel);
     plan::TileBatch batch;
     std::vector<Placed> found;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/plan/checked_query.hpp>
+#include <engine/plan/planner.hpp>
 
 #include <span>
 #include <vector>
@@ -23,6 +24,16 @@ inline std::vector<plan::CheckedQuery> checked_queries(std::span<const AnyQuery>
         }
     }
     return all;
+}
+
+/// Plans a batch of such queries.
+inline void plan_all(std::span<const plan::CheckedQuery> queries, plan::Planner& planner,
+                     plan::Plan& plan, std::vector<AnyResult>& results) {
+    planner.begin(results.size(), plan);
+    for (const plan::CheckedQuery& query : queries) {
+        planner.add(query, plan, results[query.index]);
+    }
+    planner.finish(plan);
 }
 
 }  // namespace nearfield::test

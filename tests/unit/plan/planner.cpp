@@ -39,7 +39,8 @@ protected:
             },
             shapes);
         checked_ = test::checked_queries(queries_, shapes, limits_, results_);
-        Planner(limits_).plan(checked_, plan_, results_);
+        Planner planner(limits_);
+        test::plan_all(checked_, planner, plan_, results_);
     }
 
     Polygon a_;

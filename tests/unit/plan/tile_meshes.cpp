@@ -50,7 +50,8 @@ protected:
         Planner planner(limits);
         Plan plan;
         std::vector<AnyResult> results;
-        planner.plan(test::checked_queries(queries, shapes, limits, results), plan, results);
+        test::plan_all(test::checked_queries(queries, shapes, limits, results), planner, plan,
+                       results);
         for (const AnyResult& result : results) {
             const Status status = std::visit([](const auto& one) { return one.status; }, result);
             EXPECT_TRUE(status.ok()) << status.text();

@@ -32,7 +32,7 @@ std::vector<TileBatch> tile_batches_of(
     Plan plan;
     std::vector<AnyResult> results;
     const std::vector<QueryShapes> shapes(queries.size(), {&square, &square});
-    planner.plan(test::checked_queries(queries, shapes, limits, results), plan, results);
+    test::plan_all(test::checked_queries(queries, shapes, limits, results), planner, plan, results);
     TileBatchBuilder builder(limits.subpixel);
     std::vector<TileBatch> batches(plan.tile_batches);
     for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
