@@ -6,11 +6,10 @@ namespace {
 
 using plan::PlannedQuery;
 
-/// Calls `use(place, resolved point)` for each point within a given distance of B.
+/// Calls `use(place, resolved point)` for each of the resolver's points within a given distance of
+/// B.
 template <class Use>
-void for_each_near(const ContactDecoder::Direction& direction, double distance,
-                   PointResolver& resolver, const Use& use) {
-    resolver.begin(direction.query, direction.points);
+void for_each_near(double distance, PointResolver& resolver, const Use& use) {
     resolver.for_each([](std::uint32_t word) { return (word & plan::point_resolved) != 0; },
                       [&](std::uint32_t i, const records::ResolvedPoint& resolved) {
                           if (resolved.distance <= distance) {
@@ -36,11 +35,13 @@ void ContactDecoder::find(const Direction& of_a, const Direction& of_b, double c
     const auto boundary_of_b = [this]() -> narrowphase::Boundary& {
         return a_in_b_.boundary_of_b();
     };
-    for_each_near(of_a, near, a_in_b_,
+    a_in_b_.begin(query, a, b, of_a.points);
+    for_each_near(near, a_in_b_,
                   [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
                       found.add_of_a(place, resolved, boundary_of_b);
                   });
-    for_each_near(of_b, near, b_in_a_,
+    b_in_a_.begin(of_b.query, b, a, of_b.points);
+    for_each_near(near, b_in_a_,
                   [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
                       found.add_of_b(place, resolved, boundary_of_b());
                   });

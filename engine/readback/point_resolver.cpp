@@ -37,7 +37,8 @@ void PointResolver::take(std::span<const plan::FoundPointData> found) {
     words_ = words_of_found_;
 }
 
-void PointResolver::begin(const plan::PlannedQuery& query, const QueryPoints& points) {
+void PointResolver::begin(const plan::PlannedQuery& query, const geometry::TransformedPolygon& a,
+                          const geometry::TransformedPolygon& b, const QueryPoints& points) {
     query_ = &query;
     places_ = points.points;
     words_ = points.words;
@@ -45,9 +46,9 @@ void PointResolver::begin(const plan::PlannedQuery& query, const QueryPoints& po
     if (!points.found.empty()) {
         take(points.found);
     }
-    a_.emplace(*query.a, query.pose_a);
+    a_ = a;
     positions_.emplace(*a_);
-    b_.emplace(*query.b, query.pose_b);
+    b_ = b;
     boundary_is_set_ = false;
     points_.clear();
     next_ = 0;
@@ -163,10 +164,12 @@ PenetrationSummary PointResolver::summarize_penetration(double tolerance) {
 }
 
 PenetrationSummary PointResolver::summarize_penetration(const plan::PlannedQuery& query,
+                                                        const geometry::TransformedPolygon& a,
+                                                        const geometry::TransformedPolygon& b,
                                                         const plan::PairRowData& row,
                                                         double tolerance) {
     const plan::FoundPointData deepest{0, row.edge, row.number, row.word};
-    begin(query, {.found = {&deepest, 1}});
+    begin(query, a, b, {.found = {&deepest, 1}});
     PenetrationSummary summary = summarize_penetration(tolerance);
     summary.count = row.count & plan::row_count_mask;
     return summary;

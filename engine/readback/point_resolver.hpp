@@ -55,8 +55,9 @@ struct PenetrationSummary {
 /// Makes the device's answers for the points of a query, or of one direction of it, exact.
 class PointResolver {
 public:
-    /// Query and points must stay.
-    void begin(const plan::PlannedQuery& query, const QueryPoints& points);
+    /// Query and points must stay. `a`, `b`: its shapes in their places.
+    void begin(const plan::PlannedQuery& query, const geometry::TransformedPolygon& a,
+               const geometry::TransformedPolygon& b, const QueryPoints& points);
 
     /// Calls `use(index, resolved point)` for the points that are wanted, in their order.
     /// `is_wanted(word)`: whether those with this word are, which is then not zero. All that are in
@@ -108,7 +109,10 @@ public:
     /// What for_each_penetration() tells.
     [[nodiscard]] PenetrationSummary summarize_penetration(double tolerance);
     /// The same of a query about which the device has found out enough to need none of its points.
+    /// Arguments as of begin().
     [[nodiscard]] PenetrationSummary summarize_penetration(const plan::PlannedQuery& query,
+                                                           const geometry::TransformedPolygon& a,
+                                                           const geometry::TransformedPolygon& b,
                                                            const plan::PairRowData& row,
                                                            double tolerance);
 

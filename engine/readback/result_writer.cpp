@@ -61,7 +61,9 @@ void ResultWriter::write(const Input& input, PenetrationResult& result) {
         write_searched(input, result);
         return;
     }
-    resolver_.begin(planned, input.answers.points_of(input.plan, planned.index));
+    resolver_.begin(planned, TransformedPolygon(*planned.a, planned.pose_a),
+                    TransformedPolygon(*planned.b, planned.pose_b),
+                    input.answers.points_of(input.plan, planned.index));
     if (!std::get<PenetrationQuery>(*planned.query).summary_only) {
         list_penetrations(result);
     } else {
@@ -84,10 +86,14 @@ void ResultWriter::write_searched(const Input& input, PenetrationResult& result)
     const PlannedQuery& planned = input.planned;
     const FoundPairs& pairs = input.answers.pairs();
     const plan::PairRowData* const row = pairs.row(planned.index);
+    const plan::PlacedPair pair = plan::place_pair(planned, instances_);
+    const TransformedPolygon& a = instances_[pair.a].placed;
+    const TransformedPolygon& b = instances_[pair.b].placed;
     if (row != nullptr && FoundPairs::is_summary(*row)) {
-        take_summary(resolver_.summarize_penetration(planned, *row, result.tolerance), result);
+        take_summary(resolver_.summarize_penetration(planned, a, b, *row, result.tolerance),
+                     result);
     } else if (row != nullptr) {
-        resolver_.begin(planned, pairs.points(planned.index));
+        resolver_.begin(planned, a, b, pairs.points(planned.index));
         if (planned.points().summarized) {
             take_summary(resolver_.summarize_penetration(result.tolerance), result);
         } else {
@@ -96,11 +102,17 @@ void ResultWriter::write_searched(const Input& input, PenetrationResult& result)
             list_penetrations(result);
         }
     }
-    const bool is_known = searched_ != nullptr && plan::is_reverse(*searched_, planned);
-    result.intersects =
-        result.count > 0 || (is_known ? searched_intersect_ : shapes_intersect(input));
-    searched_ = &planned;
-    searched_intersect_ = result.intersects;
+    const auto [low, high] = std::minmax(pair.a, pair.b);
+    KnownPair& known = known_[(low * std::size_t{0x9e3779b1} + high) % known_.size()];
+    if (known.low != low || known.high != high) {
+        known = {low, high, result.count > 0 || pair_intersects(pair)};
+    }
+    result.intersects = known.intersects;
+}
+
+bool ResultWriter::pair_intersects(const plan::PlacedPair& pair) {
+    plan::complete_if_near(pair, instances_);
+    return overlap_test_.intersect(instances_[pair.a], instances_[pair.b]);
 }
 
 void ResultWriter::write(const Input& input, IntersectionResult& result) {
@@ -161,7 +173,7 @@ void ResultWriter::write(const plan::Plan& plan, std::span<const std::uint32_t> 
     answers.write_drawn_samples(results);
     // Other batches may have been answered in between.
     instances_.begin_batch();
-    searched_ = nullptr;
+    known_.fill({});
     for (const std::uint32_t index : queries) {
         const PlannedQuery& planned = plan.queries[index];
         if (answers.pairs().are_left_to_cpu() && planned.has_points_of(plan::PointSource::device)) {

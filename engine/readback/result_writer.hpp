@@ -2,6 +2,7 @@
 
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/plan/memory_budget.hpp>
+#include <engine/plan/placed_pair.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/readback/contacts.hpp>
 #include <engine/readback/device_answers.hpp>
@@ -11,6 +12,7 @@
 #include <engine/solvers/closest_points.hpp>
 #include <nearfield/result.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +39,7 @@ private:
         plan::MemoryBudget& memory;
     };
 
+    [[nodiscard]] bool pair_intersects(const plan::PlacedPair& pair);
     /// Whether the shapes of a query share a point.
     [[nodiscard]] bool shapes_intersect(const Input& input);
     void write(const Input& input, PenetrationResult& result);
@@ -56,10 +59,13 @@ private:
     ContactDecoder contact_decoder_;
     records::FoundContacts found_contacts_;
     solvers::ClosestSolver closest_;
-    // The last penetration query of the batch whose points the device has found, and whether its
-    // shapes intersect: so do they the other way round.
-    const plan::PlannedQuery* searched_ = nullptr;
-    bool searched_intersect_ = false;
+    /// Two instances of the batch: pairs are often asked about in both orders.
+    struct KnownPair {
+        std::uint32_t low = UINT32_MAX;
+        std::uint32_t high = UINT32_MAX;
+        bool intersects = false;
+    };
+    std::array<KnownPair, 1024> known_;  // by hash
 };
 
 }  // namespace nearfield::readback

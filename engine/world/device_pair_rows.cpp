@@ -95,8 +95,10 @@ void DevicePairs::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
         fill(row, data, std::get<PenetrationResult>(answer_on_cpu(data, false)));
         return;
     }
+    const plan::PlannedQuery& planned = plan_pair(data);
     const readback::PenetrationSummary summary =
-        resolver_.summarize_penetration(plan_pair(data), data, question_.tolerance);
+        resolver_.summarize_penetration(planned, {*planned.a, planned.pose_a},
+                                        {*planned.b, planned.pose_b}, data, question_.tolerance);
     PenetrationResult result;
     result.count = summary.count;
     result.deepest = summary.deepest;
@@ -127,7 +129,9 @@ void DevicePairs::records(std::uint32_t index, std::vector<PenetratingPoint>& re
         records = std::get<PenetrationResult>(answer_on_cpu(data, true)).points;
         return;
     }
-    resolver_.begin(plan_pair(data), points_of(number, data.first_point, data.point_count));
+    const plan::PlannedQuery& planned = plan_pair(data);
+    resolver_.begin(planned, {*planned.a, planned.pose_a}, {*planned.b, planned.pose_b},
+                    points_of(number, data.first_point, data.point_count));
     static_cast<void>(resolver_.list_penetrations(question_.tolerance, records));
 }
 
