@@ -287,7 +287,7 @@ public:
     ///
     /// The batch is complete when the host says so: by frame_completed(), or by recording for a
     /// frame that is Settings::batches_in_flight later, which implies it. Until then its ticket is
-    /// not ready.
+    /// not ready, unless nothing was recorded because the CPU alone answers.
     ///
     /// A query that needs a second submission fails in its own result (not_recordable): contacts
     /// with gradient normals by the techniques raster and compute. Technique::automatic answers
@@ -314,7 +314,7 @@ public:
     /// any order, each one once (unknown_ticket otherwise). To keep memory, pass the same `results`
     /// objects again: their memory is swapped with that of the batches in flight.
     ///
-    /// A recorded batch is never waited for. If its frame is not complete, this fails with
+    /// Recorded work is never waited for. If its frame is not complete, this fails with
     /// not_ready and the ticket stays valid; if it is complete and the device did not execute the
     /// commands, with not_executed, which uses up the ticket like every other error.
     ///

@@ -37,7 +37,7 @@ struct NearfieldHeader {
 struct NearfieldSummary {
     uint count;     // number of points that were found; more than the capacity are not stored
     uint capacity;  // reserved number of points; 0 if the search itself had no room
-    uint deepest;   // the point of the greatest depth; nearfield_no_point if there is none
+    uint deepest;   // the point of the greatest depth, stored or not; or nearfield_no_point
     float depth;    // its depth: distance to the boundary inside, negative outside
 };
 

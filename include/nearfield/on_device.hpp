@@ -284,7 +284,7 @@ struct SummaryData {
     /// As PointsOnDevice::capacity; 0 if the memory of the search was too small, so that nothing is
     /// stored.
     std::uint32_t capacity = 0;
-    std::uint32_t deepest = no_point;  ///< index of the first point of the greatest depth
+    std::uint32_t deepest = no_point;  ///< the first of the greatest depth, stored or not
     float depth = 0.0F;  ///< its depth: distance inside the other shape, negative outside
 };
 static_assert(sizeof(SummaryData) == 16 && offsetof(SummaryData, deepest) == 8);

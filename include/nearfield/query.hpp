@@ -14,8 +14,8 @@
 /// The queries. A Batch collects them; one batch is one unit of work.
 ///
 /// An invalid value fails with StatusCode::invalid_query in the query's own result: a number out of
-/// its stated range, not finite or above `largest_coordinate`, an invalid enumerator, a tolerance
-/// below what double precision resolves at the query's coordinates.
+/// its stated range or not finite, a coordinate above `largest_coordinate`, an invalid enumerator,
+/// a tolerance below what double precision resolves at the query's coordinates.
 
 namespace nearfield {
 

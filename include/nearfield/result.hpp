@@ -139,8 +139,8 @@ enum class Side : std::uint8_t {
 /// A point of one boundary that is close to the other boundary.
 struct ContactPoint {
     Vector2 position;  ///< on the boundary of the shape `on`
-    /// Unit normal of B's boundary, points out of B: for a point of A, the way in which B's signed
-    /// distance grows; for one of B, or within rounding (or 2^-15 cells) of it, that of the edge.
+    /// Unit normal of B's boundary, points out of B: for a point of A the way in which B's signed
+    /// distance grows; on B, or within rounding (2^-15 cells) of it, an edge's, or a vertex' mean.
     Vector2 normal;
     double distance = 0.0;  ///< from `position` to `nearest`, >= 0
     Vector2 nearest;        ///< the nearest point of the other shape's boundary
@@ -238,9 +238,9 @@ struct SeparationResult : ResultSummary, SeparationValues {
 /// What an IntersectionTestResult states besides its summary: nothing.
 struct IntersectionTestValues {};
 
-/// Answer to an IntersectionTestQuery: `intersects`. Shapes whose distance is at most `error_bound`
-/// (the rounding of transformed vertices plus the shapes' deviations) may be reported either way;
-/// all others are reported exactly. `tolerance` and `cell` are 0.
+/// Answer to an IntersectionTestQuery: `intersects`. Shapes that a motion by `error_bound` (the
+/// rounding of transformed vertices plus the shapes' deviations) joins or parts may be reported
+/// either way; all others are reported exactly. `tolerance` and `cell` are 0.
 struct IntersectionTestResult : ResultSummary, IntersectionTestValues {
     using Values = IntersectionTestValues;  ///< what it states besides its summary
     using Point = NoPoint;                  ///< what it lists, nothing
@@ -327,7 +327,7 @@ struct ContainmentValues {
     Vector2 point_b;    ///< of B's boundary, closest to A's
     Vector2 direction;  ///< unit vector from point_a to point_b; (0, 0) at clearance 0
     Feature feature_a;  ///< where point_a lies on A's boundary; meaningful if clearance > 0
-    Feature feature_b;  ///< where point_b lies on B's boundary; meaningful if distance > 0
+    Feature feature_b;  ///< where point_b lies on B's boundary; meaningful if clearance > 0
     /// False if the pair is one of several: another one is as close up to the rounding of the
     /// vertices, and one of its points is farther than that from this pair's. True at clearance 0.
     bool unique = true;

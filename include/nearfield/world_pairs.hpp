@@ -22,8 +22,8 @@ struct PairsOnDevice;
 
 /// The pairs of a PairTable, those of them that have a row, and the technique.
 struct PairTableOptions {
-    /// Pairs of instances whose bounding boxes are at most this far apart along both axes are
-    /// candidates: world units, >= 0; 0: the closed boxes overlap. The boxes include the rounding
+    /// Pairs of instances whose boxes are at most this many world units apart along both axes are
+    /// candidates: finite, >= 0; 0: the closed boxes overlap. The boxes include the rounding
     /// of their vertices, so no touching pair is lost. If the query has a larger contact distance,
     /// that counts. With `hits_only` the reach matters only for separations and closest points,
     /// because no other pair that is farther apart is hit. Filters apply (WorldInstance).
