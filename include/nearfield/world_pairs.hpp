@@ -42,7 +42,7 @@ struct PairTableOptions {
     /// techniques do (Technique). Technique::automatic stands for the query's own technique. If
     /// that is automatic, too, it is compute where only a device can answer: if the query's results
     /// stay on the device, if the poses are the host's (DevicePoses), or if commands are recorded.
-    /// Otherwise it is compute on a hardware device for what compute answers, else cpu.
+    /// Otherwise compute on a hardware device for what it answers, else cpu; for a list always cpu.
     Technique technique = Technique::automatic;
 };
 
@@ -72,7 +72,7 @@ public:
     /// row.
     [[nodiscard]] std::uint32_t candidates() const noexcept;
     /// The number of candidates that the CPU answered at the last update: pairs that have changed
-    /// or, by Technique::compute, pairs that single precision cannot decide.
+    /// or, by Technique::compute, pairs found that single precision cannot decide; 0 for a list.
     [[nodiscard]] std::uint32_t left_to_cpu() const noexcept;
     /// The times of the last update. `plan`: finding pairs on the CPU, or the upload of what has
     /// changed; `device`: the wait; `decode`: pairs that the CPU answered; `total`: both halves,
@@ -138,13 +138,13 @@ protected:
 ///
 /// By Technique::compute the device finds the pairs and answers PenetrationQuery, ContactQuery with
 /// analytic normals, and IntersectionTestQuery. For SeparationQuery and ClosestPointQuery it
-/// decides which pairs have a row. Only hits have rows: a table of all candidates, or of a list, is
-/// refused (invalid_query). The CPU's time in World::update() grows with the number of instances
-/// that have moved and of pairs that the device could not decide, not with the number of pairs. The
-/// CPU makes rows exact in double precision when they are read: one by row(), or all by rows(),
-/// which are kept until the next update. Results agree with those of Technique::cpu as the answers
-/// of two techniques do (Technique); intersection tests, separations and closest points have the
-/// same rows.
+/// decides which pairs have a row. Only hits have rows: a table of all candidates is refused
+/// (invalid_query). A list is answered as a batch is, hits or not: submit() waits for the device,
+/// where nothing stays. The CPU's time in World::update() grows with the number of instances that
+/// have moved and of pairs that the device could not decide, not with the number of pairs. The CPU
+/// makes rows exact in double precision when they are read: one by row(), or all by rows(), which
+/// are kept until the next update. Results agree with Technique::cpu's as the answers of two
+/// techniques do (Technique); intersection tests, separations, closest points have the same rows.
 ///
 /// Limits of Technique::compute: 2^18 instances, and some 50,000 instances whose boxes overlap that
 /// of a single one. World::update() fails (too_large) beyond these, if the results of all pairs
