@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/base/status_exception.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/batch/batch_ring.hpp>
@@ -209,6 +210,9 @@ bool BatchRing::is_ready(Ticket ticket) {
 
 void BatchRing::collect(Ticket ticket, Results& results) {
     Laps laps;
+    if (const Frame* const frame = find(ticket)) {
+        expect_answers(frame->runner.device_queries());
+    }
     collect(ticket, results, laps);
 }
 
@@ -240,7 +244,7 @@ void BatchRing::collect(Ticket ticket, Results& results, Laps& laps) {
 
 void BatchRing::list_tiles(std::vector<TileReport>& tiles) const {
     tiles.clear();
-    if (last_ != nullptr && last_->runner.has_device_queries()) {
+    if (last_ != nullptr && last_->runner.device_queries() > 0) {
         plan::report_tiles(last_->runner.plan(), tiles);
     }
 }

@@ -103,8 +103,8 @@ public:
     [[nodiscard]] double pipeline_milliseconds() const {
         return renderer_ == nullptr ? 0.0 : renderer_->pipeline_milliseconds();
     }
-    /// Whether the last batch has queries that a device answers.
-    [[nodiscard]] bool has_device_queries() const { return !for_device_.empty(); }
+    /// The number of queries of the last batch that a device answers.
+    [[nodiscard]] std::size_t device_queries() const { return for_device_.size(); }
     /// Of these.
     [[nodiscard]] const plan::Plan& plan() const { return plan_; }
     /// Contact queries of the device with gradient normals, which are not complete.

@@ -286,6 +286,16 @@ TEST(BatchLimits, HoldForOneCallOfABatchInFlight) {
         pair.expect_whole_or_cut(batch, results, whole);
         EXPECT_EQ(pair.context().collect(*ticket, results).code(), StatusCode::unknown_ticket);
     }
+    // Both calls tell how far they are: of all queries, and of those of the device.
+    const Cut at_submit(0);
+    const Cut at_collect(0);
+    const Expected<Ticket> ticket = pair.context().submit(batch, at_submit.limits());
+    ASSERT_TRUE(ticket.has_value());
+    ASSERT_TRUE(pair.context().collect(*ticket, results, at_collect.limits()).ok());
+    EXPECT_EQ(at_submit.count(), batch.queries().size());
+    EXPECT_GT(at_collect.count(), 2U);
+    EXPECT_LT(at_collect.count(), at_submit.count());
+    EXPECT_LE(at_collect.done(), at_collect.count());
     EXPECT_EQ(all_numbers(pair.answer(batch)), all_numbers(whole));
 }
 
