@@ -1,12 +1,29 @@
 #include <passes/compute_shader.hpp>
 
+#include <shaders/search.h>
+
+#include <array>
+
 namespace nearfield::passes {
 
+namespace {
+
+/// The specialization constant of the shaders that include shapes.glsl: they read the input as
+/// texels where these can address as much as a storage buffer.
+std::array<VkBool32, 1> constants_of(const gpu::Device& device) {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    const bool reads_texels =
+        limits.maxTexelBufferElements >= limits.maxStorageBufferRange / plan::bytes_of_unit;
+    return {reads_texels ? VK_TRUE : VK_FALSE};
+}
+
+}  // namespace
+
 ComputeShader::ComputeShader(const gpu::Device& device, const graph::ComputeLayout& layout,
-                             gpu::Spirv code, const char* name, std::span<const VkBool32> constants)
+                             gpu::Spirv code, const char* name)
     : functions_(&device.functions()),
       layout_(layout.pipeline_layout()),
-      pipeline_(gpu::make_compute_pipeline(device, layout_, code, name, constants)) {}
+      pipeline_(gpu::make_compute_pipeline(device, layout_, code, name, constants_of(device))) {}
 
 void ComputeShader::bind(VkCommandBuffer commands) const {
     functions_->vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());

@@ -26,9 +26,8 @@ inline constexpr std::uint32_t max_push_bytes = sizeof(plan::SearchPush);
 /// A compute shader of the layout that all share: how it is bound and dispatched.
 class ComputeShader {
 public:
-    /// `constants`: see gpu::make_compute_pipeline.
     ComputeShader(const gpu::Device& device, const graph::ComputeLayout& layout, gpu::Spirv code,
-                  const char* name, std::span<const VkBool32> constants = {});
+                  const char* name);
 
     void bind(VkCommandBuffer commands) const;
     void bind_set(VkCommandBuffer commands, VkDescriptorSet set) const;
@@ -47,26 +46,25 @@ public:
     template <class Push, class... Words>
     void dispatch_elements(VkCommandBuffer commands, std::uint32_t begin, std::uint32_t end,
                            Words... words) const {
-        dispatch_in_parts(commands, begin, end, [&](std::uint32_t first) {
-            push(commands, Push{first, end, words...});
-        });
+        dispatch_in_parts(commands, begin, end, Push{begin, end, words...});
     }
-    /// The same with push constants of the caller: `push(first)` is called before each dispatch.
+    /// The same with push constants of the caller, without `first`.
     template <class Push>
     void dispatch_in_parts(VkCommandBuffer commands, std::uint32_t begin, std::uint32_t end,
-                           Push&& push) const {
+                           Push constants) const {
         constexpr std::uint64_t most = std::uint64_t{plan::max_workgroups} * plan::group_size;
         for (std::uint64_t first = begin; first < end; first += most) {
-            push(static_cast<std::uint32_t>(first));
+            constants.first = static_cast<std::uint32_t>(first);
+            push(commands, constants);
             dispatch_threads(commands, std::min(end - first, most));
         }
     }
-    /// Dispatches `count` workgroups, in as many dispatches as the device's limits require:
-    /// `push(first)` is called before each, with its first workgroup.
+    /// The same with `count` workgroups.
     template <class Push>
-    void dispatch_workgroups(VkCommandBuffer commands, std::uint32_t count, Push&& push) const {
+    void dispatch_workgroups(VkCommandBuffer commands, std::uint32_t count, Push constants) const {
         for (std::uint64_t first = 0; first < count; first += plan::max_workgroups) {
-            push(static_cast<std::uint32_t>(first));
+            constants.first = static_cast<std::uint32_t>(first);
+            push(commands, constants);
             dispatch(commands, static_cast<std::uint32_t>(
                                    std::min<std::uint64_t>(count - first, plan::max_workgroups)));
         }

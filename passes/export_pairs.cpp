@@ -14,17 +14,12 @@ constexpr graph::ExternalAccess after_search{.before = write};
 constexpr graph::ExternalAccess of_host{.before = Access::exported_buffer,
                                         .after = Access::exported_buffer};
 
-ComputeShader make_shader(const gpu::Device& device, const graph::ComputeLayout& layout,
-                          gpu::Spirv code, const char* name) {
-    return {device, layout, code, name, search_constants(device)};
-}
-
 }  // namespace
 
 ExportPairs::ExportPairs(const gpu::Device& device, const graph::ComputeLayout& layout)
-    : row_shader(make_shader(device, layout, shaders::export_pairs_comp, "nearfield export pairs")),
-      record_shader(make_shader(device, layout, shaders::export_pair_records_comp,
-                                "nearfield export pair records")),
+    : row_shader(device, layout, shaders::export_pairs_comp, "nearfield export pairs"),
+      record_shader(device, layout, shaders::export_pair_records_comp,
+                    "nearfield export pair records"),
       shapes(graph.import_buffer({"pair shapes", true, false})),
       instances(graph.import_buffer({"pair instances", true, false})),
       scratch(graph.import_buffer({"pair scratch"}, after_search)),

@@ -1,6 +1,5 @@
 #include <engine/graph/access.hpp>
 #include <passes/exports.hpp>
-#include <passes/search_shaders.hpp>
 
 #include <shaders/export_field_comp.hpp>
 #include <shaders/export_headers_comp.hpp>
@@ -21,20 +20,10 @@ constexpr graph::ExternalAccess after_tiles{write, {}};
 void dispatch_parts(const ComputeShader& shader, const graph::PassCommands& commands,
                     const ExportField::Input& input) {
     for (std::size_t i = 0; i < input.parts.size(); ++i) {
-        const plan::FieldPartOutput& part = input.parts[i];
+        const plan::ExportFieldPush& cells = input.parts[i].cells;
         shader.bind_set(commands, commands.set_of(input.resources[i]));
-        const plan::ExportFieldPush push{part.value,
-                                         part.feature,
-                                         part.stride,
-                                         part.width,
-                                         part.height,
-                                         static_cast<std::int32_t>(part.column),
-                                         static_cast<std::int32_t>(part.row),
-                                         input.field->rings.first_word,
-                                         input.field->rings.count,
-                                         static_cast<float>(input.field->cell)};
-        shader.push(commands, push);
-        shader.dispatch_cells(commands, part.width, part.height);
+        shader.push(commands, cells);
+        shader.dispatch_cells(commands, cells.width, cells.height);
     }
 }
 
@@ -128,8 +117,7 @@ ExportField::ExportField(const gpu::Device& device, const graph::ComputeLayout& 
 
 // A search that takes the same scratch memory waits for the one before, and so for this.
 ExportRecords::ExportRecords(const gpu::Device& device, const graph::ComputeLayout& layout)
-    : shader(device, layout, shaders::export_records_comp, "nearfield export records",
-             search_constants(device)),
+    : shader(device, layout, shaders::export_records_comp, "nearfield export records"),
       shapes(graph.import_buffer({"pair shapes", true, false})),
       scratch(graph.import_buffer({"pair scratch"}, after_tiles)),
       blocks(graph.import_buffer({"record blocks"}, {write, {}})),

@@ -29,7 +29,6 @@ struct ExportField {
     ExportField(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     struct Input {
-        const plan::FieldOutputs* field = nullptr;
         std::span<const plan::FieldPartOutput> parts;
         std::span<const graph::BoundResources> resources;  ///< by part
     };

@@ -1,11 +1,11 @@
 #include <passes/fields.hpp>
-#include <passes/search_shaders.hpp>
 
 #include <shaders/field_blocks_by_groups_comp.hpp>
 #include <shaders/field_blocks_comp.hpp>
 #include <shaders/field_quarters_comp.hpp>
 #include <shaders/field_regions_by_groups_comp.hpp>
 #include <shaders/field_regions_comp.hpp>
+#include <shaders/field_rows_comp.hpp>
 #include <shaders/fields.h>
 #include <shaders/resolve_blocks_comp.hpp>
 #include <shaders/resolve_crowded_comp.hpp>
@@ -19,11 +19,6 @@ namespace nearfield::passes {
 using graph::Access;
 
 namespace {
-
-ComputeShader make_field_shader(const gpu::Device& device, const graph::ComputeLayout& layout,
-                                gpu::Spirv code, const char* name) {
-    return {device, layout, code, name, search_constants(device)};
-}
 
 plan::FieldPush push_of(const RecordContext& context) {
     const plan::ComputeWork& work = context.batch.compute;
@@ -46,10 +41,7 @@ void dispatch_threads_of(const ComputeShader& shader, VkCommandBuffer commands,
                          const RecordContext& context, std::uint64_t threads) {
     plan::FieldPush push = push_of(context);
     push.end = static_cast<std::uint32_t>(threads);
-    shader.dispatch_in_parts(commands, 0, push.end, [&](std::uint32_t first) {
-        push.first = first;
-        shader.push(commands, push);
-    });
+    shader.dispatch_in_parts(commands, 0, push.end, push);
 }
 
 }  // namespace
@@ -61,7 +53,7 @@ std::vector<Fields::ListPass> Fields::make_lists(const gpu::Device& device,
     std::vector<ListPass> lists;
     const auto add = [&](const char* name, gpu::Spirv code, std::uint32_t FieldWork::*squares) {
         const std::string shader = std::string("nearfield ") + name;
-        lists.push_back({name, make_field_shader(device, layout, code, shader.c_str()), squares});
+        lists.push_back({name, {device, layout, code, shader.c_str()}, squares});
     };
     if (by_groups) {
         add("list for regions", shaders::field_regions_by_groups_comp, &FieldWork::regions);
@@ -75,16 +67,22 @@ std::vector<Fields::ListPass> Fields::make_lists(const gpu::Device& device,
 }
 
 Fields::Fields(const gpu::Device& device, const graph::ComputeLayout& layout)
-    : lists_by_groups_(!device.is_software()),
+    : rows_(device, layout, shaders::field_rows_comp, "nearfield fill rows"),
+      lists_by_groups_(!device.is_software()),
       lists_(make_lists(device, layout, lists_by_groups_)),
-      values_(make_field_shader(device, layout, shaders::resolve_blocks_comp,
-                                "nearfield resolve blocks")),
-      features_(make_field_shader(device, layout, shaders::resolve_features_comp,
-                                  "nearfield resolve features")),
-      crowded_(make_field_shader(device, layout, shaders::resolve_crowded_comp,
-                                 "nearfield resolve crowded blocks")),
-      points_(make_field_shader(device, layout, shaders::resolve_field_points_by_walks_comp,
-                                "nearfield resolve field points by walks")) {}
+      values_(device, layout, shaders::resolve_blocks_comp, "nearfield resolve blocks"),
+      features_(device, layout, shaders::resolve_features_comp, "nearfield resolve features"),
+      crowded_(device, layout, shaders::resolve_crowded_comp, "nearfield resolve crowded blocks"),
+      points_(device, layout, shaders::resolve_field_points_by_walks_comp,
+              "nearfield resolve field points by walks") {}
+
+void Fields::declare_fill(TileGraph& graph, graph::Handle input, graph::Handle& scratch) const {
+    add_pass(
+        graph, "fill rows", rows_, {{0, input}, {1, scratch, write}},
+        [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
+            dispatch_threads_of(shader, commands, context, context.batch.compute.fields.rows);
+        });
+}
 
 void Fields::declare_lists(TileGraph& graph, Buffers& buffers) const {
     for (const ListPass& list : lists_) {
@@ -97,15 +95,11 @@ void Fields::declare_lists(TileGraph& graph, Buffers& buffers) const {
                      const ComputeShader& shader, VkCommandBuffer commands,
                      const RecordContext& context) {
                      const std::uint32_t count = context.batch.compute.fields.*squares;
-                     if (!by_groups) {
+                     if (by_groups) {
+                         shader.dispatch_workgroups(commands, count, push_of(context));
+                     } else {
                          dispatch_threads_of(shader, commands, context, count);
-                         return;
                      }
-                     plan::FieldPush push = push_of(context);
-                     shader.dispatch_workgroups(commands, count, [&](std::uint32_t first) {
-                         push.first = first;
-                         shader.push(commands, push);
-                     });
                  });
     }
 }
@@ -163,10 +157,7 @@ void Fields::declare_points(TileGraph& graph, graph::Handle input, Output& outpu
                 push.words_per_point = run.parts.words_per_point;
                 push.cells_per_point = run.parts.cells_per_point;
                 push.end = run.count * (1 + push.cells_per_point);
-                shader.dispatch_in_parts(commands, 0, push.end, [&](std::uint32_t first) {
-                    push.first = first;
-                    shader.push(commands, push);
-                });
+                shader.dispatch_in_parts(commands, 0, push.end, push);
             }
         });
 }

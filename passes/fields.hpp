@@ -13,12 +13,15 @@ namespace nearfield::passes {
 /// Distance fields of the compute technique (shaders/fields.h). The device lists the edges of B
 /// that can be nearest in each block of 16 x 16 cells, from coarse to fine; the cells of a block
 /// search its list, and masks tell their signs. Each dispatch covers all fields of a tile batch. On
-/// a software driver one thread makes a list, since barriers within a workgroup and shared memory
-/// cost the most there; on a GPU, which has more threads than there are lists, a workgroup does.
+/// a GPU, which has more threads than there are lists, a workgroup makes a list. On a software
+/// driver one thread does, and eight lists share the instructions that find where they are; there a
+/// frame of 1,000 small fields takes 1.2 to 1.3 times as long with workgroups of eight threads.
 class Fields {
 public:
     Fields(const gpu::Device& device, const graph::ComputeLayout& layout);
 
+    /// Adds the pass that fills the rows of the masks, in which edges are marked.
+    void declare_fill(TileGraph& graph, graph::Handle input, graph::Handle& scratch) const;
     /// The buffers of the passes; `input`: shapes and tiles; `crowd`: the arguments of the dispatch
     /// for crowded blocks.
     struct Buffers {
@@ -53,6 +56,7 @@ private:
     static std::vector<ListPass> make_lists(const gpu::Device& device,
                                             const graph::ComputeLayout& layout, bool by_groups);
 
+    ComputeShader rows_;
     bool lists_by_groups_;
     std::vector<ListPass> lists_;  ///< the last one also counts crowded blocks
     ComputeShader values_;

@@ -1,19 +1,27 @@
 #include <passes/masks.hpp>
-#include <passes/search_shaders.hpp>
 
 #include <shaders/collect_masks_comp.hpp>
-#include <shaders/mask_rows_comp.hpp>
 #include <shaders/mask_shapes_comp.hpp>
 
 namespace nearfield::passes {
 
 using graph::Access;
 
+namespace {
+
+/// The first unit of the shapes in masks, behind the shapes, and the tiles and points of fields.
+std::uint32_t first_mask_shape(const RecordContext& context) {
+    const plan::FieldWork& fields = context.batch.compute.fields;
+    return context.shape_units +
+           static_cast<std::uint32_t>(fields.tiles.size() * plan::units_of_field_tile +
+                                      fields.points.size());
+}
+
+}  // namespace
+
 Masks::Masks(const gpu::Device& device, const graph::ComputeLayout& layout)
     : device_(&device),
-      shapes_(device, layout, shaders::mask_shapes_comp, "nearfield mask shapes",
-              search_constants(device)),
-      rows_(device, layout, shaders::mask_rows_comp, "nearfield mask rows"),
+      shapes_(device, layout, shaders::mask_shapes_comp, "nearfield mask shapes"),
       collect_(device, layout, shaders::collect_masks_comp, "nearfield collect masks") {}
 
 // The scratch memory belongs to the tile batch, whose former use has been waited for.
@@ -43,41 +51,28 @@ void Masks::declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle
         graph, "mask shapes", shapes_, {{0, shapes}, {1, scratch, write}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
             const plan::ComputeWork& work = context.batch.compute;
-            // Behind the shapes, and the tiles and points of fields.
-            const std::size_t first = context.shape_units +
-                                      work.fields.tiles.size() * plan::units_of_field_tile +
-                                      work.fields.points.size();
             shader.dispatch_elements<plan::MaskShapesPush>(
-                commands, 0, work.mask_threads, static_cast<std::uint32_t>(first),
+                commands, 0, work.mask_threads, first_mask_shape(context),
                 static_cast<std::uint32_t>(work.mask_shapes.size()),
                 static_cast<std::uint32_t>(work.mask_words));
         });
 }
 
-void Masks::declare_fill(TileGraph& graph, graph::Handle input, graph::Handle& scratch) const {
-    add_pass(
-        graph, "fill rows", rows_, {{0, input, read, input_parts::masks}, {1, scratch, write}},
-        [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            const plan::ComputeWork& work = context.batch.compute;
-            // Behind the overlaps.
-            shader.dispatch_elements<plan::MaskRowsPush>(
-                commands, 0, static_cast<std::uint32_t>(work.field_rows.size()),
-                static_cast<std::uint32_t>(work.overlaps.size()) * 4 * plan::units_of_overlap);
-        });
-}
-
-void Masks::declare_collect(TileGraph& graph, graph::Handle input, graph::Handle& scratch,
+void Masks::declare_collect(TileGraph& graph, graph::Handle shapes, graph::Handle& scratch,
                             graph::Handle samples) const {
     add_pass(
         graph, "collect masks", collect_,
-        {{0, input, read, input_parts::masks},
+        {{0, shapes},
          {1, scratch, write},
          {2, samples, write, sample_parts::summaries},
          {3, samples, write, sample_parts::samples}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
             const plan::ComputeWork& work = context.batch.compute;
             shader.dispatch_elements<plan::CollectMasksPush>(
-                commands, 0, work.overlap_rows, static_cast<std::uint32_t>(work.overlaps.size()),
+                commands, 0, work.overlap_rows,
+                first_mask_shape(context) +
+                    static_cast<std::uint32_t>(work.mask_shapes.size()) * plan::units_of_mask_shape,
+                static_cast<std::uint32_t>(work.overlaps.size()),
                 static_cast<std::uint32_t>(work.mask_words), context.sample_capacity);
         });
 }

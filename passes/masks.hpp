@@ -20,16 +20,13 @@ public:
     void declare_clear(TileGraph& graph, graph::Handle& scratch) const;
     /// Adds the pass that puts shapes into masks: of volumes it marks the edges.
     void declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle& scratch) const;
-    /// Adds the pass that fills the rows of fields.
-    void declare_fill(TileGraph& graph, graph::Handle input, graph::Handle& scratch) const;
     /// Adds the pass that fills the rows of intersections and writes the same output as Collect.
-    void declare_collect(TileGraph& graph, graph::Handle input, graph::Handle& scratch,
+    void declare_collect(TileGraph& graph, graph::Handle shapes, graph::Handle& scratch,
                          graph::Handle samples) const;
 
 private:
     const gpu::Device* device_;
     ComputeShader shapes_;
-    ComputeShader rows_;
     ComputeShader collect_;
 };
 

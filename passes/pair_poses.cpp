@@ -1,5 +1,4 @@
 #include <passes/pair_poses.hpp>
-#include <passes/search_shaders.hpp>
 
 #include <shaders/pair_poses_comp.hpp>
 #include <shaders/pairs.h>
@@ -9,8 +8,7 @@ namespace nearfield::passes {
 using graph::Access;
 
 PairPoses::PairPoses(const gpu::Device& device, const graph::ComputeLayout& layout)
-    : shader(device, layout, shaders::pair_poses_comp, "nearfield pair poses",
-             search_constants(device)),
+    : shader(device, layout, shaders::pair_poses_comp, "nearfield pair poses"),
       poses(graph.import_buffer({"poses of the host"}, {.before = write})),
       shapes(graph.import_buffer({"pair shapes", true, false})),
       // The search before may still read these, and write those.
@@ -31,11 +29,7 @@ PairPoses::PairPoses(const gpu::Device& device, const graph::ComputeLayout& layo
     add_pass(graph, "pair poses", shader,
              {{1, poses}, {0, shapes}, {2, placed, write}, {3, for_cpu, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const plan::PosePush& all) {
-                 of.dispatch_in_parts(commands, 0, all.instances, [&](std::uint32_t first) {
-                     plan::PosePush push = all;
-                     push.first = first;
-                     of.push(commands, push);
-                 });
+                 of.dispatch_in_parts(commands, 0, all.instances, all);
              });
     graph.compile(device);
 }

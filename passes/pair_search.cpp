@@ -43,8 +43,7 @@ PairSearch::PairSearch(const gpu::Device& device, const graph::ComputeLayout& la
     Versions at{part_.shapes, part_.instances, part_.scratch, part_.arguments,
                 part_.points, part_.rows,      part_.counts};
     if (kind.are_given()) {
-        given_.emplace(device, layout, shaders::pair_given_comp, "nearfield given pairs",
-                       search_constants(device));
+        given_.emplace(device, layout, shaders::pair_given_comp, "nearfield given pairs");
         declare_given_pairs(at);
     } else {
         declare_boxes();
@@ -72,7 +71,7 @@ void PairSearch::declare_boxes() {
         {{0, boxes.shapes}, {2, boxes.instances}, {1, scratch, write}}, no_stage, no_stage);
     add_pass(boxes.graph, "pair levels", finding_->instances.levels, {{1, scratch, write}},
              [this](const ComputeShader& levels, VkCommandBuffer commands, const Input& input) {
-                 push(commands, input, levels, 0, no_stage);
+                 levels.push(commands, push_of(input, no_stage));
                  levels.dispatch(commands, 1);
              });
 }
@@ -91,7 +90,7 @@ void PairSearch::add_scan(Versions& at, const char* name, std::uint32_t stage) {
     add_pass(
         part_.graph, name, shaders_->scan, {{1, at.scratch, write}, {3, at.arguments, write}},
         [this, stage](const ComputeShader& scan, VkCommandBuffer commands, const Input& input) {
-            push(commands, input, scan, 0, stage);
+            scan.push(commands, push_of(input, stage));
             const auto& room = input.capacities;
             scan.dispatch(commands, stage == plan::edge_total ? scan_groups(room[plan::item_total])
                                     : stage == plan::point_total
@@ -119,9 +118,7 @@ void PairSearch::declare_given_pairs(Versions& at) {
              {{0, at.shapes}, {2, at.instances}, {1, at.scratch, write}, {3, at.arguments, write}},
              [this](const ComputeShader& given, VkCommandBuffer commands, const Input& input) {
                  given.dispatch_in_parts(commands, input.push.first_instance,
-                                         input.push.end_instance, [&](std::uint32_t first) {
-                                             push(commands, input, given, first, plan::pair_total);
-                                         });
+                                         input.push.end_instance, push_of(input, plan::pair_total));
              });
 }
 
@@ -179,26 +176,23 @@ void PairSearch::add(Passes& passes, const char* name, const ComputeShader& shad
              [this, threads_of, stage, arguments = passes.arguments](
                  const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
                  if (threads_of == no_stage) {
-                     of.dispatch_in_parts(
-                         commands, 0, input.push.instances,
-                         [&](std::uint32_t first) { push(commands, input, of, first, stage); });
+                     of.dispatch_in_parts(commands, 0, input.push.instances, push_of(input, stage));
                  } else {
-                     push(commands, input, of, 0, stage);
+                     of.push(commands, push_of(input, stage));
                      of.dispatch_indirect(commands, commands.part(arguments).buffer,
                                           search_argument_bytes * threads_of);
                  }
              });
 }
 
-void PairSearch::push(VkCommandBuffer commands, const Input& input, const ComputeShader& shader,
-                      std::uint32_t first, std::uint32_t stage) const {
+plan::SearchPush PairSearch::push_of(const Input& input, std::uint32_t stage) const {
     plan::SearchPush push = input.push;
     push.flags = flags_;
-    push.first = first;
+    push.first = 0;
     push.stage = stage;
     push.capacity = stage < input.capacities.size() ? input.capacities[stage] : 0;
     push.second_capacity = input.capacities[plan::item_total];
-    shader.push(commands, push);
+    return push;
 }
 
 }  // namespace nearfield::passes

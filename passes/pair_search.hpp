@@ -83,8 +83,7 @@ private:
     void add(Passes& passes, const char* name, const ComputeShader& shader,
              std::initializer_list<graph::Bound> bound, std::uint32_t threads_of,
              std::uint32_t stage);
-    void push(VkCommandBuffer commands, const Input& input, const ComputeShader& shader,
-              std::uint32_t first, std::uint32_t stage) const;
+    [[nodiscard]] plan::SearchPush push_of(const Input& input, std::uint32_t stage) const;
 
     const SearchShaders* shaders_;
     const FoundPairShaders* finding_;

@@ -9,13 +9,12 @@
 
 namespace nearfield::passes {
 
-/// The parts in which passes bind the input of a tile batch.
+/// The parts in which passes of the raster technique bind the input of a tile batch.
 namespace input_parts {
-inline constexpr std::uint32_t tiles = 0;  ///< and, of the raster technique, groups of cells
+inline constexpr std::uint32_t tiles = 0;  ///< and groups of cells
 inline constexpr std::uint32_t edges = 1;
 inline constexpr std::uint32_t points = 2;
-inline constexpr std::uint32_t field_points = 3;  ///< of the raster technique
-inline constexpr std::uint32_t masks = 4;         ///< of the compute technique (plan::ComputeWork)
+inline constexpr std::uint32_t field_points = 3;
 }  // namespace input_parts
 
 /// The parts of the samples of intersections.

@@ -8,7 +8,6 @@
 #include <shaders/search.h>
 #include <vulkan/vulkan_core.h>
 
-#include <array>
 #include <cstdint>
 
 namespace nearfield::passes {
@@ -27,9 +26,6 @@ inline constexpr VkDeviceSize search_argument_bytes =
     return scan_groups((std::uint64_t{points} + plan::points_per_thread - 1) /
                        plan::points_per_thread);
 }
-
-/// The specialization constants of the shaders that include shapes.glsl.
-[[nodiscard]] std::array<VkBool32, 1> search_constants(const gpu::Device& device);
 
 /// The shaders that make the boxes of a world's instances, and the levels above them.
 struct InstanceShaders {

@@ -30,13 +30,12 @@ ShaderOfQuestion shader_of(plan::WorldQuestion question) {
 ComputeShader make_query_shader(const gpu::Device& device, const graph::ComputeLayout& layout,
                                 const ShaderOfQuestion& shader) {
     const std::string name = std::string("nearfield ") + shader.pass;
-    return {device, layout, shader.code, name.c_str(), search_constants(device)};
+    return {device, layout, shader.code, name.c_str()};
 }
 
 /// What the shaders of the instances take of their push constants.
-plan::SearchPush push_of_boxes(const plan::WorldQueryPush& push, std::uint32_t first) {
+plan::SearchPush push_of_boxes(const plan::WorldQueryPush& push) {
     plan::SearchPush boxes{};
-    boxes.first = first;
     boxes.instances = push.instances;
     boxes.boxes = push.boxes;
     return boxes;
@@ -57,23 +56,17 @@ WorldQueries::WorldQueries(const gpu::Device& device, const graph::ComputeLayout
              {{0, shapes}, {2, instances}, {1, boxes_and_answers, write}},
              [](const ComputeShader& boxes, VkCommandBuffer commands, const Input& input) {
                  boxes.dispatch_in_parts(commands, 0, input.push.instances,
-                                         [&](std::uint32_t first) {
-                                             boxes.push(commands, push_of_boxes(input.push, first));
-                                         });
+                                         push_of_boxes(input.push));
              });
     add_pass(graph, "instance levels", instance_shaders->levels, {{1, boxes_and_answers, write}},
              [](const ComputeShader& levels, VkCommandBuffer commands, const Input& input) {
-                 levels.push(commands, push_of_boxes(input.push, 0));
+                 levels.push(commands, push_of_boxes(input.push));
                  levels.dispatch(commands, 1);
              });
     add_pass(graph, shader_of(question).pass, shader,
              {{0, shapes}, {2, instances}, {3, questions}, {1, boxes_and_answers, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
-                 of.dispatch_in_parts(commands, 0, input.push.count, [&](std::uint32_t first) {
-                     plan::WorldQueryPush push = input.push;
-                     push.first = first;
-                     of.push(commands, push);
-                 });
+                 of.dispatch_in_parts(commands, 0, input.push.count, input.push);
              });
     graph.add_pass(
         "copy answers", graph::PassKind::compute,

@@ -7,31 +7,20 @@
 
 #include "masks.glsl"
 #include "push.h"
+#include "shapes.glsl"
 #include "samples.glsl"
 
 layout(local_size_x = group_size) in;
-
-layout(std430, set = 0, binding = 0) readonly buffer Work {
-    uvec4 work[];
-};
 
 layout(push_constant) uniform Push { CollectMasksPush push; };
 
 // The tile that a row belongs to.
 OverlapData overlap_of(uint index) {
-    uint tile = 0u;
-    uint count = push.overlap_count;
-    while (count > 1u) {
-        uint half_count = count / 2u;
-        if (work[units_of_overlap * (tile + half_count)].w <= index) {
-            tile += half_count;
-            count -= half_count;
-        } else {
-            count = half_count;
-        }
-    }
-    uvec4 a = work[units_of_overlap * tile];
-    uvec4 b = work[units_of_overlap * tile + 1u];
+    uint unit = push.overlaps + units_of_overlap * last_of_input(index, 4u * push.overlaps + 3u,
+                                                                 push.overlap_count,
+                                                                 4u * units_of_overlap);
+    uvec4 a = unit_at(unit);
+    uvec4 b = unit_at(unit + 1u);
     return OverlapData(a.x, a.y, a.z, a.w, b.x, b.y, b.z, 0u);
 }
 

@@ -52,14 +52,6 @@ NEARFIELD_CHECK(sizeof(MaskShapeData) == 16 * units_of_mask_shape)
 const uint no_edges = 0xffffffffu;
 const uint box_shift = 3u;  // of the eight places of a chunk, and of the eight boxes of a box
 
-// A row of a field's mask.
-struct MaskRowData {
-    uint first_word NEARFIELD_DEFAULT(0);
-    uint words NEARFIELD_DEFAULT(0);
-};
-const uint words_of_mask_row = 2u;
-NEARFIELD_CHECK(sizeof(MaskRowData) == 4 * words_of_mask_row)
-
 // An overlap tile.
 struct OverlapData {
     uint mask_a NEARFIELD_DEFAULT(0);  // first words in the scratch memory

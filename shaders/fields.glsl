@@ -6,10 +6,11 @@
 
 layout(push_constant) uniform Push { FieldPush push; };
 
-// Which of the three numbers of a tile's first elements.
-const uint by_region = 0u;
-const uint by_quarter = 1u;
-const uint by_block = 2u;
+// Which of the numbers of a tile's first elements, by its word.
+const uint by_region = 12u;
+const uint by_quarter = 13u;
+const uint by_block = 14u;
+const uint by_row = 18u;
 
 uint tile_unit(uint tile, uint unit) {
     return push.tiles + units_of_field_tile * tile + unit;
@@ -17,25 +18,14 @@ uint tile_unit(uint tile, uint unit) {
 
 // The tile that an element belongs to.
 uint tile_of(uint index, uint kind) {
-    uint tile = 0u;
-    uint count = push.tile_count;
-    while (count > 1u) {
-        uint half_count = count / 2u;
-        if (unit_at(tile_unit(tile + half_count, 3u))[kind] <= index) {
-            tile += half_count;
-            count -= half_count;
-        } else {
-            count = half_count;
-        }
-    }
-    return tile;
+    return last_of_input(index, 4u * push.tiles + kind, push.tile_count, 4u * units_of_field_tile);
 }
 
 FieldTileData tile_at(uint tile) {
     uvec4 first = unit_at(tile_unit(tile, 3u));
     uvec4 results = unit_at(tile_unit(tile, 4u));
     return FieldTileData(shape_in_tile_at(tile_unit(tile, 0u)), first.x, first.y, first.z, first.w,
-                         results.x, uintBitsToFloat(results.y), uint[2](0u, 0u));
+                         results.x, uintBitsToFloat(results.y), results.z, uint[1](0u));
 }
 
 uvec2 count_along(FieldTileData tile, uint side) {

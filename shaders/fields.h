@@ -36,7 +36,9 @@ struct FieldTileData {
     uint first_value NEARFIELD_DEFAULT(not_asked);
     uint first_feature NEARFIELD_DEFAULT(not_asked);
     float margin NEARFIELD_DEFAULT(0.0F);  // two distances that differ by less count as equal
-    uint unused[2] NEARFIELD_DEFAULT({});
+    // Of its rows of cells, among those of all tiles
+    uint first_row NEARFIELD_DEFAULT(0);
+    uint unused[1] NEARFIELD_DEFAULT({});
 };
 const uint units_of_field_tile = 5u;
 NEARFIELD_CHECK(sizeof(FieldTileData) == 16 * units_of_field_tile)

@@ -19,26 +19,13 @@ layout(std430, set = 0, binding = 1) buffer Scratch {
 
 layout(push_constant) uniform Push { MaskShapesPush push; };
 
-uint shape_unit(uint number) {
-    return push.shapes + units_of_mask_shape * number;
-}
-
 // The shape that a thread belongs to.
 MaskShapeData shape_of(uint index) {
-    uint number = 0u;
-    uint count = push.shape_count;
-    while (count > 1u) {
-        uint half_count = count / 2u;
-        if (unit_at(shape_unit(number + half_count) + units_of_shape_in_tile).x <= index) {
-            number += half_count;
-            count -= half_count;
-        } else {
-            count = half_count;
-        }
-    }
-    uvec4 own = unit_at(shape_unit(number) + units_of_shape_in_tile);
-    return MaskShapeData(shape_in_tile_at(shape_unit(number)), own.x, uintBitsToFloat(own.y), own.z,
-                         own.w);
+    uint unit = push.shapes + units_of_mask_shape *
+                                  last_of_input(index, 4u * (push.shapes + units_of_shape_in_tile),
+                                                push.shape_count, 4u * units_of_mask_shape);
+    uvec4 own = unit_at(unit + units_of_shape_in_tile);
+    return MaskShapeData(shape_in_tile_at(unit), own.x, uintBitsToFloat(own.y), own.z, own.w);
 }
 
 // The cells of a row or column of `size` cells whose centres lie between two places relative to the

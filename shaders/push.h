@@ -30,6 +30,7 @@ struct CollectPush {
 struct CollectMasksPush {
     uint first;
     uint end;
+    uint overlaps;  // first unit in the input
     uint overlap_count;
     uint edges;     // first word of the cells' edges in the scratch memory
     uint capacity;  // space for samples
@@ -50,12 +51,6 @@ struct MaskShapesPush {
     uint shapes;  // first unit in the input
     uint shape_count;
     uint edges;  // first word of the cells' edges in the scratch memory
-};
-
-struct MaskRowsPush {
-    uint first;
-    uint end;
-    uint rows;  // first word in the work buffer
 };
 
 // Of all passes over fields whose lists the device makes (fields.h).
@@ -173,7 +168,7 @@ struct ExportFieldPush {
     uint height;
     int column;  // of the first cell, in the images
     int row;
-    uint rings;
+    uint rings;  // of B in the tables: the first edge of each, then the number of all edges
     uint ring_count;
     float cell;
 };

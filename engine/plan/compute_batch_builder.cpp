@@ -57,9 +57,6 @@ void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
     work.shapes = &shapes_.shapes();
     if (any_cells) {
         add_mask_shape(seen, tile, by_volume, no_edges, work);
-        for (std::uint32_t row = 0; row < tile.height; ++row) {
-            work.field_rows.push_back({mask + row * words_per_row(tile), words_per_row(tile)});
-        }
     }
 }
 

@@ -6,7 +6,6 @@ namespace nearfield::plan {
 
 void ComputeWork::clear() {
     mask_shapes.clear();
-    field_rows.clear();
     overlaps.clear();
     fields.clear();
     shapes = nullptr;
@@ -18,7 +17,8 @@ std::uint64_t ComputeWork::shape_bytes() const {
     return shapes == nullptr
                ? 0
                : shapes->units().size_bytes() + std::span(fields.tiles).size_bytes() +
-                     std::span(fields.points).size_bytes() + std::span(mask_shapes).size_bytes();
+                     std::span(fields.points).size_bytes() + std::span(mask_shapes).size_bytes() +
+                     std::span(overlaps).size_bytes();
 }
 
 }  // namespace nearfield::plan

@@ -13,7 +13,6 @@ namespace nearfield::plan {
 /// The work of a tile batch of the compute technique.
 struct ComputeWork {
     std::vector<MaskShapeData> mask_shapes;
-    std::vector<MaskRowData> field_rows;
     std::vector<OverlapData> overlaps;
     FieldWork fields;
     /// The input starts with these; they outlive the upload of the batch.

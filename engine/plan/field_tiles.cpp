@@ -20,7 +20,7 @@ constexpr std::uint32_t own_edges_per_block = 128;
 void FieldWork::clear() {
     tiles.clear();
     points.clear();
-    regions = quarters = blocks = 0;
+    regions = quarters = blocks = rows = 0;
     values = features = false;
 }
 
@@ -58,12 +58,14 @@ ShapeInTileData add_field_tile(const PlannedQuery& query, const Tile& tile, std:
     data.first_region = work.regions;
     data.first_quarter = work.quarters;
     data.first_block = work.blocks;
+    data.first_row = work.rows;
     data.first_value = first_value;
     data.first_feature = first_feature;
     if (first_value != not_asked || first_feature != not_asked) {
         work.regions += count_in(tile, region_side);
         work.quarters += count_in(tile, quarter_side);
         work.blocks += count_in(tile, block_side);
+        work.rows += tile.height;
         work.values = work.values || first_value != not_asked;
         work.features = work.features || first_feature != not_asked;
     }

@@ -19,6 +19,7 @@ struct FieldWork {
     std::uint32_t regions = 0;
     std::uint32_t quarters = 0;
     std::uint32_t blocks = 0;
+    std::uint32_t rows = 0;  ///< of cells
     bool values = false;
     bool features = false;
 

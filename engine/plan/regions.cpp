@@ -1,7 +1,6 @@
 #include <engine/base/interruption.hpp>
 #include <engine/base/status_exception.hpp>
 #include <engine/plan/check_query.hpp>
-#include <engine/plan/compute_work.hpp>
 #include <engine/plan/region.hpp>
 #include <engine/plan/regions.hpp>
 
@@ -59,12 +58,11 @@ double Regions::tiles(double side) const {
 }
 
 double Regions::bytes_of_masks(int masks, double largest_tile) const {
-    constexpr double bytes_per_row = 4.0 * (sizeof(MaskRowData));
     double bytes = 0.0;
     for (const Grid& grid : grids_) {
         const double across = std::ceil(static_cast<double>(grid.width) / largest_tile);
         const double rows = across * static_cast<double>(grid.height);
-        bytes += masks * (grid.cells() / 8.0 + sizeof(std::uint32_t) * rows) + bytes_per_row * rows;
+        bytes += masks * (grid.cells() / 8.0 + sizeof(std::uint32_t) * rows);
     }
     return bytes;
 }

@@ -28,8 +28,8 @@ public:
     [[nodiscard]] double cells() const;
     /// Number of tiles of at most `side` x `side` cells.
     [[nodiscard]] double tiles(double side) const;
-    /// Memory for `masks` bit masks of the grids by the compute technique, one bit per cell: the
-    /// masks themselves on the device, and their rows on both host and device.
+    /// Memory for `masks` bit masks of the grids by the compute technique, one bit per cell in rows
+    /// of whole words.
     [[nodiscard]] double bytes_of_masks(int masks, double largest_tile) const;
     /// Throws StatusException (too_large) if a side exceeds what a Region can state.
     void require_sides(std::uint32_t query, double tolerance) const;

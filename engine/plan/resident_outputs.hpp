@@ -4,6 +4,7 @@
 #include <nearfield/on_device.hpp>
 
 #include <shaders/export.h>
+#include <shaders/push.h>
 
 #include <cstdint>
 #include <vector>
@@ -12,22 +13,10 @@ namespace nearfield::plan {
 
 /// The outputs of a batch that stay on the device, in the form that the export passes take.
 
-/// Rings of a polygon in the tables: the first edge of each ring, then the number of all edges.
-struct RingTable {
-    std::uint32_t first_word = 0;
-    std::uint32_t count = 0;  ///< of rings
-};
-
-/// The cells of one tile: their position in the field words of a tile batch and in the images.
+/// The cells of one tile in the field words of a tile batch.
 struct FieldPartOutput {
     std::uint32_t tile_batch = 0;
-    std::uint32_t value = 0;    ///< word of the first cell's value,
-    std::uint32_t feature = 0;  ///< and of its feature
-    std::uint32_t stride = 0;   ///< words from row to row
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::uint32_t column = 0;  ///< of the first cell in the images
-    std::uint32_t row = 0;
+    ExportFieldPush cells{};
 };
 
 /// A field that is exported as images.
@@ -40,7 +29,6 @@ struct FieldOutputs {
     double error_bound = 0.0;
     FieldTarget target;            ///< images of the host, where their handles are not null
     bool has_features = true;      ///< otherwise there are only distances
-    RingTable rings;               ///< of B
     std::uint32_t first_part = 0;  ///< in ResidentOutputs::field_parts
     std::uint32_t part_count = 0;
 };

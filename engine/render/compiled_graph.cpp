@@ -6,7 +6,6 @@ using graph::Handle;
 CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passes, GraphKey needs,
                              VkExtent2D extent)
     : needs_(needs), extent_(extent) {
-    handles_.input = graph_.import_buffer({"input", true, false});
     if (needs.compute != ComputeKey{}) {
         declare_compute(passes);
     } else {
@@ -17,9 +16,7 @@ CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passe
 
 void CompiledGraph::declare_compute(const PipelineSet& passes) {
     const ComputeKey& needs = needs_.compute;
-    if (needs.fields || needs.field_points || needs.overlap) {
-        handles_.shapes = graph_.import_buffer({"shapes in tiles", true, false});
-    }
+    handles_.shapes = graph_.import_buffer({"shapes in tiles", true, false});
     if (needs.fields || needs.field_points) {
         handles_.long_searches = graph_.import_buffer({"long searches", true, true});
         handles_.field = graph_.import_buffer({"field results", false, true});
@@ -44,11 +41,11 @@ void CompiledGraph::declare_masked(const PipelineSet& passes, passes::Fields::Ou
     passes.masks().declare_clear(graph_, scratch);
     passes.masks().declare_shapes(graph_, handles_.shapes, scratch);
     if (needs.fields) {
-        passes.masks().declare_fill(graph_, handles_.input, scratch);
+        passes.fields().declare_fill(graph_, handles_.shapes, scratch);
     }
     if (needs.overlap) {
         handles_.samples = graph_.import_buffer({"samples", true, true});
-        passes.masks().declare_collect(graph_, handles_.input, scratch, handles_.samples);
+        passes.masks().declare_collect(graph_, handles_.shapes, scratch, handles_.samples);
     }
     if (needs.fields) {
         declare_cells(passes.fields(), scratch, output);
@@ -70,6 +67,7 @@ void CompiledGraph::declare_cells(const passes::Fields& fields, Handle scratch,
 }
 
 void CompiledGraph::declare_drawn(const RasterPipelines& passes) {
+    handles_.input = graph_.import_buffer({"input", true, false});
     handles_.mesh = graph_.import_buffer({"mesh", true, false});
     const passes::FieldImages images = declare_images(passes);
     if (needs_.points) {

@@ -23,8 +23,6 @@ void copy_to(std::byte* target, const Vectors&... vectors) {
 
 ComputeBuffers::ComputeBuffers(const gpu::Device& device)
     : device_(&device),
-      masks_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
-             "nearfield rows of masks"),
       scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                gpu::Direction::none, "nearfield compute scratch"),
       shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
@@ -36,11 +34,6 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
 
 void ComputeBuffers::upload(const plan::TileBatch& batch) {
     const plan::ComputeWork& work = batch.compute;
-    mask_bytes_ = bytes_of(work.overlaps) + bytes_of(work.field_rows);
-    require_range(*device_, mask_bytes_, "the rows of masks");
-    masks_.reserve(std::max(mask_bytes_, smallest_part));
-    copy_to(masks_.data(), work.overlaps, work.field_rows);
-    masks_.flush();
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
     require_range(*device_, scratch_bytes_, "the masks and lists");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
@@ -63,7 +56,7 @@ void ComputeBuffers::upload_shapes(const plan::ComputeWork& work) {
         revision_ = work.shapes->revision();
     }
     std::byte* target = shapes_.data() + shapes.size();
-    copy_to(target, fields.tiles, fields.points, work.mask_shapes);
+    copy_to(target, fields.tiles, fields.points, work.mask_shapes, work.overlaps);
     shapes_.flush();
     crowd_.reserve(smallest_part);
     long_searches_.reserve(smallest_part);
@@ -91,7 +84,6 @@ bool ComputeBuffers::had_long_searches() const {
 }
 
 void ComputeBuffers::bind(const TileHandles& handles, graph::BoundResources& resources) const {
-    resources.set(handles.input, masks_.part(0, mask_bytes_), passes::input_parts::masks);
     resources.set(handles.scratch, scratch());
     resources.set(handles.shapes, shapes_.part(0, shape_bytes_));
     resources.set(handles.crowd, crowd_.part(0, smallest_part));

@@ -36,9 +36,7 @@ private:
     void upload_shapes(const plan::ComputeWork& work);
 
     const gpu::Device* device_;
-    gpu::MappedBuffer masks_;  // overlaps and rows of fields
     gpu::MappedBuffer scratch_;
-    std::uint64_t mask_bytes_ = 0;
     std::uint64_t scratch_bytes_ = 0;
     gpu::MappedBuffer shapes_;
     gpu::MappedBuffer crowd_;

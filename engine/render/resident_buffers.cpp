@@ -350,7 +350,6 @@ void ResidentBuffers::record(const ExportPipelines& passes, VkCommandBuffer comm
         const plan::FieldOutputs& field = resident_->fields[i];
         execute(passes.field.graph,
                 passes::ExportField::Input{
-                    &field,
                     std::span(resident_->field_parts).subspan(field.first_part, field.part_count),
                     bound_fields_[i]});
     }

@@ -1,11 +1,11 @@
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/resident/resident_outputs_builder.hpp>
-#include <engine/resident/resident_tables.hpp>
 #include <nearfield/on_device.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <type_traits>
 
 namespace nearfield::resident {
@@ -37,6 +37,16 @@ double error_of_records(const TransformedPolygon& a, const TransformedPolygon& b
 
 vec2 rounded(const Vector& vector) {
     return {static_cast<float>(vector.x()), static_cast<float>(vector.y())};
+}
+
+/// Appends the rings of a polygon to the tables; returns where.
+std::uint32_t add_rings(const geometry::Polygon& polygon, std::vector<std::uint32_t>& tables) {
+    const auto first = static_cast<std::uint32_t>(tables.size());
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        tables.push_back(polygon.ring_begin(ring));
+    }
+    tables.push_back(polygon.size());
+    return first;
 }
 
 /// Of points that the search looks at, at most: the threads of a direction, and of each of its
@@ -89,22 +99,23 @@ void ResidentOutputsBuilder::find_field_parts(const plan::Plan& plan,
             const std::uint32_t corner = tile.halo * tile.width + tile.halo;
             plan::FieldPartOutput part;
             part.tile_batch = number;
-            part.value = field.first_value + corner;
+            part.cells.value = field.first_value + corner;
             const bool has_features =
                 std::get<DistanceFieldQuery>(*plan.queries[tile.query].query).features_on_device;
-            part.feature = has_features ? field.first_feature + corner : plan::not_asked;
-            part.stride = tile.width;
-            part.width = tile.width - 2 * tile.halo;
-            part.height = tile.height - 2 * tile.halo;
-            part.column = static_cast<std::uint32_t>(tile.column);
-            part.row = static_cast<std::uint32_t>(tile.row);
+            part.cells.feature = has_features ? field.first_feature + corner : plan::not_asked;
+            part.cells.stride = tile.width;
+            part.cells.width = tile.width - 2 * tile.halo;
+            part.cells.height = tile.height - 2 * tile.halo;
+            part.cells.column = static_cast<std::int32_t>(tile.column);
+            part.cells.row = static_cast<std::int32_t>(tile.row);
             parts_.emplace_back(tile.query, part);
         }
     }
     std::sort(parts_.begin(), parts_.end(), [](const auto& i, const auto& j) {
-        return i.first != j.first             ? i.first < j.first
-               : i.second.row != j.second.row ? i.second.row < j.second.row
-                                              : i.second.column < j.second.column;
+        const auto key = [](const auto& part) {
+            return std::tuple(part.first, part.second.cells.row, part.second.cells.column);
+        };
+        return key(i) < key(j);
     });
 }
 
@@ -123,12 +134,15 @@ void ResidentOutputsBuilder::add_field(const PlannedQuery& planned, std::uint32_
         field.target = *asked.target;
     }
     field.has_features = asked.features_on_device;
-    field.rings = add_rings(*planned.b, resident);
+    const std::uint32_t rings = add_rings(*planned.b, resident.tables);
     field.first_part = static_cast<std::uint32_t>(resident.field_parts.size());
     const auto first = std::partition_point(
         parts_.begin(), parts_.end(), [query](const auto& part) { return part.first < query; });
     for (auto part = first; part != parts_.end() && part->first == query; ++part) {
-        resident.field_parts.push_back(part->second);
+        plan::ExportFieldPush& cells = resident.field_parts.emplace_back(part->second).cells;
+        cells.rings = rings;
+        cells.ring_count = planned.b->ring_count();
+        cells.cell = static_cast<float>(result.cell);
     }
     field.part_count = static_cast<std::uint32_t>(resident.field_parts.size()) - field.first_part;
 }

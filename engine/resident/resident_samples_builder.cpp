@@ -1,9 +1,10 @@
 #include <engine/geometry/transformed_polygon.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/resident/resident_samples_builder.hpp>
-#include <engine/resident/resident_tables.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace nearfield::resident {
@@ -135,7 +136,9 @@ void ResidentSamplesBuilder::add_tiles(const plan::Plan& plan, const Intersectio
         plan::SampleRunOutput& run = resident.sample_runs[samples.first_run + i];
         run.table = static_cast<std::uint32_t>(resident.tables.size());
         for (std::uint32_t tile = 0; tile < run.tile_count; ++tile) {
-            add_words(resident.sample_tiles[run.first_tile + tile], resident);
+            using Words = std::array<std::uint32_t, plan::words_of_tile>;
+            const auto words = std::bit_cast<Words>(resident.sample_tiles[run.first_tile + tile]);
+            resident.tables.insert(resident.tables.end(), words.begin(), words.end());
         }
     }
 }

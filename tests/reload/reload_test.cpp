@@ -86,12 +86,12 @@ TEST_F(ShaderReload, ChangesWhatLaterBatchesAnswerAndBack) {
 TEST_F(ShaderReload, OfWhatDoesNotCompileSaysWhyAndLeavesWhatIsInUse) {
     const std::uint64_t count_as_built = count();
     folder_.replace("collect_masks.comp", "if (count == 0u) {", "if (true) {");
-    folder_.replace("mask_rows.comp", "void main() {", "void main() {\n    nonsense;");
+    folder_.replace("field_rows.comp", "void main() {", "void main() {\n    nonsense;");
     const char* const folder = folder_.path().c_str();
     for (int attempt = 0; attempt < 2; ++attempt) {
         const Status status = reload_shaders(*context_, folder).error();
         EXPECT_EQ(status.code(), StatusCode::invalid_shader);
-        EXPECT_NE(status.message().find("mask_rows.comp' does not compile"), std::string::npos);
+        EXPECT_NE(status.message().find("field_rows.comp' does not compile"), std::string::npos);
         const auto says = [](const std::string& line) {
             return line.find("nonsense") != std::string::npos;
         };
@@ -101,7 +101,7 @@ TEST_F(ShaderReload, OfWhatDoesNotCompileSaysWhyAndLeavesWhatIsInUse) {
         EXPECT_EQ(count(), count_as_built) << "though another shader did compile";
         errors_.clear();
     }
-    folder_.restore("mask_rows.comp");
+    folder_.restore("field_rows.comp");
     EXPECT_EQ(reload(), 1U);
     EXPECT_EQ(count(), 0U);
 

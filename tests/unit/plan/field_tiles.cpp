@@ -123,6 +123,8 @@ TEST(FieldTiles, AreWhereTheirTilesAre) {
     EXPECT_EQ(work.tiles[2].first_quarter, 7U * 3U);
     EXPECT_EQ(work.tiles[2].first_block, 13U * 5U);
     EXPECT_EQ(work.blocks, 2U * 13U * 5U);
+    EXPECT_EQ(work.tiles[2].first_row, 65U);
+    EXPECT_EQ(work.rows, 2U * 65U);
     const ShapeInTileData& data = work.tiles.back().b;
     const geometry::TransformedPolygon placed(polygon, query.pose_b);
     const double unit = unit_length_of(polygon);
