@@ -15,7 +15,7 @@ namespace nearfield::passes {
 /// search its list, and masks tell their signs. Each dispatch covers all fields of a tile batch. On
 /// a GPU, which has more threads than there are lists, a workgroup makes a list. On a software
 /// driver one thread does, and eight lists share the instructions that find where they are; there a
-/// frame of 1,000 small fields takes 1.2 to 1.3 times as long with workgroups of eight threads.
+/// frame of 1,000 small fields takes 1.2 times as long with workgroups of eight threads.
 class Fields {
 public:
     Fields(const gpu::Device& device, const graph::ComputeLayout& layout);

@@ -49,7 +49,7 @@ class MemoryLimitOfTechniques : public MemoryLimit,
 
 INSTANTIATE_TEST_SUITE_P(MemoryLimit, MemoryLimitOfTechniques,
                          testing::Values(Technique::cpu, Technique::compute),
-                         [](const auto& info) { return std::string(to_string(info.param)); });
+                         [](const auto& tested) { return std::string(to_string(tested.param)); });
 
 TEST_P(MemoryLimitOfTechniques, IsForThePointsThatPenetrateAndNotForSamples) {
     Context little = with_memory(12);

@@ -27,7 +27,8 @@ protected:
 
     /// What the device found of the point is in `word`.
     records::ResolvedPoint resolved(std::uint32_t word) {
-        resolver_.begin(planned_, {a_, {}}, {b_, {}}, {.points = points_, .words = {&word, 1}});
+        resolver_.begin(planned_, {*planned_.a, {}}, {*planned_.b, {}},
+                        {.points = points_, .words = {&word, 1}});
         records::ResolvedPoint resolved;
         resolver_.for_each(
             [](std::uint32_t) { return true; },
@@ -90,7 +91,8 @@ TEST_F(PointResolverTest, ResolvesManyPointsAsOneByOne) {
     const geometry::TransformedPolygon placed_b(b, {});
     for (const double margin : {0.0, 1.0}) {
         planned_.points().margin = margin;
-        resolver_.begin(planned_, {a_, {}}, {b_, {}}, {.points = points_, .words = words});
+        resolver_.begin(planned_, {*planned_.a, {}}, {*planned_.b, {}},
+                        {.points = points_, .words = words});
         std::uint32_t next = 0;
         resolver_.for_each(
             [](std::uint32_t) { return true; },
@@ -128,7 +130,8 @@ TEST_F(PointResolverTest, ListsPenetrationsAndTheFirstOfTheDeepest) {
         points_.push_back({{vertex, 0.0}, plan::PlannedPoint::no_tile});
         words.push_back((vertex == 3 ? plan::point_resolved : found) | 1U);
     }
-    resolver_.begin(planned_, {a_, {}}, {b_, {}}, {.points = points_, .words = words});
+    resolver_.begin(planned_, {*planned_.a, {}}, {*planned_.b, {}},
+                    {.points = points_, .words = words});
     std::vector<PenetratingPoint> records(10);
     EXPECT_EQ(resolver_.list_penetrations(0.01, records), 1U);
     ASSERT_EQ(records.size(), 3U);
