@@ -330,7 +330,7 @@ void BatchRunner::collect(Laps& laps) {
         std::rethrow_exception(std::exchange(late_failure_, nullptr));
     }
     if (!for_device_.empty()) {
-        plan::MemoryBudget memory(plan::with_affordable_atlas(planning_->limits));
+        plan::MemoryBudget memory(planning_->limits);
         memory.add(plan_.result_bytes);
         planning_->writer.write(plan_, for_device_, answers_, memory, results_.results);
         solve_what_had_no_room();

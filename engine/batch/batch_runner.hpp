@@ -35,7 +35,7 @@ struct Planning {
 
     Planning(const plan::PlanLimits& limits_of_device,
              const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs)
-        : limits(limits_of_device),
+        : limits(plan::with_affordable_atlas(limits_of_device)),
           rule{limits.techniques, limits.largest_range, thresholds},
           solvers(limits, jobs),
           planner(limits),

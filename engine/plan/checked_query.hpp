@@ -43,7 +43,7 @@ struct CheckedQuery : ShapePair {
 /// Checks a query of a batch. Returns true and fills in `checked`, or returns false and states the
 /// error in the result. The result is emptied first; it then states what is known of every query:
 /// tolerance, technique, bound and cell.
-[[nodiscard]] bool check(std::uint32_t index, const AnyQuery& query, const QueryShapes& shapes,
+[[nodiscard]] bool check(std::uint32_t index, const AnyQuery& any, const QueryShapes& shapes,
                          const PlanLimits& limits, Submissions submissions, CheckedQuery& checked,
                          AnyResult& result);
 

@@ -51,12 +51,8 @@ void Planner::plan_query(const Query& query, CurrentQuery& current,
     }
     if (Status status = add_target(query, current.index); !status.ok()) {
         result.status = std::move(status);
-    } else if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {
-        fields_.plan(query, current, result);
-    } else if constexpr (std::is_same_v<Query, IntersectionQuery>) {
-        overlaps_.plan(query, current, result);
     } else if constexpr (answered_by_cpu_alone<Query> == nullptr) {
-        points_.plan(query, current, result);
+        planner_of(query).plan(query, current, result);
     }
     if (!result.status.ok()) {
         targets_.drop(current.index);

@@ -29,7 +29,7 @@ public:
     /// Plans one of them, which has just been checked. An error is stated in its result and leaves
     /// it without tiles. Throws StatusException (too_large) if the batch needs more memory than the
     /// limit.
-    void add(const CheckedQuery& query, Plan& plan, AnyResult& result);
+    void add(const CheckedQuery& checked, Plan& plan, AnyResult& any);
     /// After the last one.
     void finish(Plan& plan);
     /// The shapes that the device searches.
@@ -42,6 +42,14 @@ private:
     /// Adds what the query writes to, if the host names it; returns what is wrong with it.
     template <class Query>
     [[nodiscard]] Status add_target(const Query& query, std::uint32_t index);
+    template <class Query>
+    [[nodiscard]] PointPlanner& planner_of(const Query& /*query*/) {
+        return points_;
+    }
+    [[nodiscard]] FieldPlanner& planner_of(const DistanceFieldQuery& /*query*/) { return fields_; }
+    [[nodiscard]] OverlapPlanner& planner_of(const IntersectionQuery& /*query*/) {
+        return overlaps_;
+    }
 
     PlanLimits limits_;
     Targets targets_;  // of the batch, as is the next

@@ -61,8 +61,8 @@ void ResultWriter::write(const Input& input, PenetrationResult& result) {
         write_searched(input, result);
         return;
     }
-    resolver_.begin(planned, TransformedPolygon(*planned.a, planned.pose_a),
-                    TransformedPolygon(*planned.b, planned.pose_b),
+    const plan::PlacedPair pair = plan::place_pair(planned, instances_);
+    resolver_.begin(planned, instances_[pair.a].placed, instances_[pair.b].placed,
                     input.answers.points_of(input.plan, planned.index));
     if (!std::get<PenetrationQuery>(*planned.query).summary_only) {
         list_penetrations(result);
