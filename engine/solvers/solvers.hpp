@@ -33,7 +33,7 @@ public:
 
     /// Writes the result of a query; an error of this query alone is stated there. Throws
     /// StatusException (too_large) if the batch needs more memory than the limit.
-    void answer(const plan::CheckedQuery& query, AnyResult& result);
+    void answer(const plan::CheckedQuery& query, AnyResult& any);
 
 private:
     Workspace workspace_;
