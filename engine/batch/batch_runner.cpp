@@ -19,13 +19,13 @@ std::size_t place_of(const std::vector<Output>& all, std::uint32_t query) {
     return static_cast<std::size_t>(found - all.begin());
 }
 
-/// The error of a query whose records do not all stay.
+/// The error of a query whose points do not all stay.
 Status no_room(const plan::RecordsOutput& records, std::uint32_t count) {
     const std::uint64_t bytes =
         sizeof(SummaryData) + std::uint64_t{std::max(count, records.capacity)} * sizeof(PointData);
     return {StatusCode::overflow,
             "query " + std::to_string(records.query) + " has " + std::to_string(count) +
-                " records, and what stays on the device has room for " +
+                " points, and what stays on the device has room for " +
                 std::to_string(records.capacity) +
                 (records.target.buffer == VK_NULL_HANDLE
                      ? "; that of the next batch has room for as many"

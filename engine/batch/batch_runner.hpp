@@ -105,7 +105,7 @@ public:
     }
     /// The number of queries of the last batch that a device answers.
     [[nodiscard]] std::size_t device_queries() const { return for_device_.size(); }
-    /// Of these.
+    /// The plan of these.
     [[nodiscard]] const plan::Plan& plan() const { return plan_; }
     /// Contact queries of the device with gradient normals, which are not complete.
     [[nodiscard]] std::span<const std::uint32_t> with_gradient_normals() const {

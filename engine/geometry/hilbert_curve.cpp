@@ -16,8 +16,7 @@ std::uint32_t cell_of(double from_low, double cells_per_unit, std::uint32_t cell
         std::clamp(from_low * cells_per_unit, 0.0, static_cast<double>(cells - 1)));
 }
 
-/// So many halvings are looked up at once, in a table of the cells of a square of this
-/// table_side.
+/// So many halvings are looked up at once, in a table of the cells of a square of this side.
 constexpr std::uint32_t halvings_at_once = 4;
 constexpr std::uint32_t table_side = 1U << halvings_at_once;
 

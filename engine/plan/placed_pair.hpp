@@ -39,11 +39,14 @@ inline void complete_if_near(const PlacedPair& pair, simd::TransformedInstances&
 }
 
 /// Whether the shapes share a point.
-[[nodiscard]] inline bool intersect(const ShapePair& shapes, simd::TransformedInstances& instances,
+[[nodiscard]] inline bool intersect(const PlacedPair& pair, simd::TransformedInstances& instances,
                                     narrowphase::OverlapTest& overlap_test) {
-    const PlacedPair pair = place_pair(shapes, instances);
     complete_if_near(pair, instances);
     return overlap_test.intersect(instances[pair.a], instances[pair.b]);
+}
+[[nodiscard]] inline bool intersect(const ShapePair& shapes, simd::TransformedInstances& instances,
+                                    narrowphase::OverlapTest& overlap_test) {
+    return intersect(place_pair(shapes, instances), instances, overlap_test);
 }
 
 /// Whether deviations and coordinates permit the tolerance.

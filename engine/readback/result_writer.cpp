@@ -105,14 +105,9 @@ void ResultWriter::write_searched(const Input& input, PenetrationResult& result)
     const auto [low, high] = std::minmax(pair.a, pair.b);
     KnownPair& known = known_[(low * std::size_t{0x9e3779b1} + high) % known_.size()];
     if (known.low != low || known.high != high) {
-        known = {low, high, result.count > 0 || pair_intersects(pair)};
+        known = {low, high, result.count > 0 || plan::intersect(pair, instances_, overlap_test_)};
     }
-    result.intersects = known.intersects;
-}
-
-bool ResultWriter::pair_intersects(const plan::PlacedPair& pair) {
-    plan::complete_if_near(pair, instances_);
-    return overlap_test_.intersect(instances_[pair.a], instances_[pair.b]);
+    result.intersects = result.count > 0 || known.intersects;
 }
 
 void ResultWriter::write(const Input& input, IntersectionResult& result) {

@@ -39,7 +39,6 @@ private:
         plan::MemoryBudget& memory;
     };
 
-    [[nodiscard]] bool pair_intersects(const plan::PlacedPair& pair);
     /// Whether the shapes of a query share a point.
     [[nodiscard]] bool shapes_intersect(const Input& input);
     void write(const Input& input, PenetrationResult& result);

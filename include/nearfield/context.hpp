@@ -65,10 +65,10 @@ struct Settings {
     /// sets its own number of frames in flight times its batches per frame.
     std::uint32_t batches_in_flight = 2;
     /// Memory limit for the images and results of one batch, host and device together, in bytes. A
-    /// batch that needs more fails (StatusCode::too_large): before the device works, or while the
-    /// CPU answers, whose points count once they are found. Meshes and edge lists, whose size
-    /// depends on the shapes and not on the grid, are not counted. With several batches in flight
-    /// the limit applies to the results of each; the images are shared.
+    /// batch that needs more fails (StatusCode::too_large): before the device works, or once the
+    /// CPU or the device's search has found the points that count. Meshes and edge lists, whose
+    /// size depends on the shapes and not on the grid, are not counted. With several batches in
+    /// flight the limit applies to the results of each; the images are shared.
     std::uint64_t memory_limit = std::uint64_t{1} << 30U;
     /// Maximum height of the bounding-volume hierarchies used for localisation (section 2.1 of the
     /// paper). A larger value means more work on the CPU and less on the device.

@@ -18,8 +18,8 @@ struct Progress {
     /// Queries of the batch that are done, or entries of a world's query. Those answered by the
     /// device are done in collect().
     std::uint64_t done = 0;
-    /// Queries, or entries, known so far; it grows where the answers to some need more. Shape casts
-    /// and tables of pairs count the pairs that come near each other.
+    /// Queries, or entries, known so far; it grows where the answers to some need more. Tables of
+    /// pairs count the pairs that come near each other; collect() counts the device's queries.
     std::uint64_t count = 0;
 };
 
