@@ -56,13 +56,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
     target_compile_options(nearfield_same_bits INTERFACE -fno-tree-slp-vectorize)
 endif()
 
-# nearfield_module(NAME [LINK MODULE|LIBRARY...]) makes the object library nearfield_NAME from all
-# sources in engine/NAME, or in the top-level folder NAME. It links the modules directly below it. A
-# file may include files of those and of all modules below them; the tests of a module link nothing
-# else.
+# nearfield_module(NAME [LINK MODULE|LIBRARY...] [OPTIONAL MODULE...]) makes the object library
+# nearfield_NAME from all sources in engine/NAME, or in the top-level folder NAME. It links the
+# modules directly below it. A file may include files of those and of all modules below them; the
+# tests of a module link nothing else. Optional modules are linked where there are such, and
+# NEARFIELD_HAS_MODULE is then defined in NAME.
 set_property(GLOBAL PROPERTY NEARFIELD_MODULES "")
 function(nearfield_module name)
-    cmake_parse_arguments(PARSE_ARGV 1 module "" "" "LINK")
+    cmake_parse_arguments(PARSE_ARGV 1 module "" "" "LINK;OPTIONAL")
     set(folder ${PROJECT_SOURCE_DIR}/engine/${name})
     if(NOT IS_DIRECTORY ${folder})
         set(folder ${PROJECT_SOURCE_DIR}/${name})
@@ -70,6 +71,13 @@ function(nearfield_module name)
     file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.hpp)
     add_library(nearfield_${name} OBJECT ${sources})
     target_link_libraries(nearfield_${name} PUBLIC nearfield_options PRIVATE nearfield_same_bits)
+    foreach(optional IN LISTS module_OPTIONAL)
+        if(TARGET nearfield_${optional})
+            list(APPEND module_LINK ${optional})
+            string(TOUPPER ${optional} upper)
+            target_compile_definitions(nearfield_${name} PRIVATE NEARFIELD_HAS_${upper})
+        endif()
+    endforeach()
     set(below "")
     foreach(library IN LISTS module_LINK)
         if(TARGET nearfield_${library})

@@ -5,7 +5,6 @@
 #include <engine/gpu/pipeline.hpp>
 #include <engine/graph/compute_layout.hpp>
 #include <engine/graph/recorded_graph.hpp>
-#include <engine/plan/tile_batch.hpp>
 
 #include <shaders/layout.h>
 #include <shaders/push.h>
@@ -22,6 +21,12 @@ namespace nearfield::passes {
 
 /// Those of the largest push constants.
 inline constexpr std::uint32_t max_push_bytes = sizeof(plan::SearchPush);
+
+/// The parts in which passes bind the samples of intersections.
+namespace sample_parts {
+inline constexpr std::uint32_t summaries = 0;  ///< by tile
+inline constexpr std::uint32_t samples = 1;    ///< their number and list
+}  // namespace sample_parts
 
 /// A compute shader of the layout that all share: how it is bound and dispatched.
 class ComputeShader {
@@ -67,19 +72,6 @@ public:
             push(commands, constants);
             dispatch(commands, static_cast<std::uint32_t>(
                                    std::min<std::uint64_t>(count - first, plan::max_workgroups)));
-        }
-    }
-    /// Dispatches one workgroup for each plan::CellGroup of a list, in as many dispatches as the
-    /// device's limits require. The push constants of each, a structure of shaders/push.h, are the
-    /// position of its first group, and `words`.
-    template <class Push, class... Words>
-    void dispatch_groups(VkCommandBuffer commands, const plan::TileBatch& batch, std::size_t list,
-                         Words... words) const {
-        const std::uint32_t begin = batch.first_group(list);
-        const auto end = begin + static_cast<std::uint32_t>(batch.raster.groups[list].size());
-        for (std::uint32_t first = begin; first < end; first += plan::max_workgroups) {
-            push(commands, Push{first, words...});
-            dispatch(commands, std::min(end - first, plan::max_workgroups));
         }
     }
     /// Dispatches one thread per cell of a rectangle, in workgroups of field_group_side squared.

@@ -21,7 +21,7 @@ using graph::Access;
 namespace {
 
 plan::FieldPush push_of(const RecordContext& context) {
-    const plan::ComputeWork& work = context.batch.compute;
+    const plan::ComputeWork& work = context.batch.work;
     const plan::FieldLists lists = work.field_lists();
     plan::FieldPush push{};
     push.tiles = context.shape_units;
@@ -80,7 +80,7 @@ void Fields::declare_fill(TileGraph& graph, graph::Handle input, graph::Handle& 
     add_pass(
         graph, "fill rows", rows_, {{0, input}, {1, scratch, write}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            dispatch_threads_of(shader, commands, context, context.batch.compute.fields.rows);
+            dispatch_threads_of(shader, commands, context, context.batch.work.fields.rows);
         });
 }
 
@@ -94,7 +94,7 @@ void Fields::declare_lists(TileGraph& graph, Buffers& buffers) const {
                  [by_groups = lists_by_groups_, squares = list.squares](
                      const ComputeShader& shader, VkCommandBuffer commands,
                      const RecordContext& context) {
-                     const std::uint32_t count = context.batch.compute.fields.*squares;
+                     const std::uint32_t count = context.batch.work.fields.*squares;
                      if (by_groups) {
                          shader.dispatch_workgroups(commands, count, push_of(context));
                      } else {
@@ -111,7 +111,7 @@ void Fields::declare_values(TileGraph& graph, Buffers buffers, graph::Handle& fi
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
             dispatch_threads_of(
                 shader, commands, context,
-                std::uint64_t{plan::threads_per_block} * context.batch.compute.fields.blocks);
+                std::uint64_t{plan::threads_per_block} * context.batch.work.fields.blocks);
         });
 }
 
@@ -124,7 +124,7 @@ void Fields::declare_features(TileGraph& graph, Buffers buffers, graph::Handle& 
             constexpr std::uint64_t threads =
                 std::uint64_t{plan::block_side} * plan::block_side / cells_per_thread;
             dispatch_threads_of(shader, commands, context,
-                                threads * context.batch.compute.fields.blocks);
+                                threads * context.batch.work.fields.blocks);
         });
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 /// The first unit of the shapes in masks, behind the shapes, and the tiles and points of fields.
 std::uint32_t first_mask_shape(const RecordContext& context) {
-    const plan::FieldWork& fields = context.batch.compute.fields;
+    const plan::FieldWork& fields = context.batch.work.fields;
     return context.shape_units +
            static_cast<std::uint32_t>(fields.tiles.size() * plan::units_of_field_tile +
                                       fields.points.size());
@@ -30,7 +30,7 @@ void Masks::declare_clear(TileGraph& graph, graph::Handle& scratch) const {
         "clear masks", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) { scratch = pass.write(scratch, Access::transfer_write); },
         [this, scratch](const graph::PassCommands& commands, const RecordContext& context) {
-            const plan::ComputeWork& work = context.batch.compute;
+            const plan::ComputeWork& work = context.batch.work;
             const auto fill = [&](std::uint64_t first, std::uint64_t words, std::uint32_t value) {
                 if (words > 0) {
                     device_->functions().vkCmdFillBuffer(commands, commands.part(scratch).buffer,
@@ -50,7 +50,7 @@ void Masks::declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle
     add_pass(
         graph, "mask shapes", shapes_, {{0, shapes}, {1, scratch, write}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            const plan::ComputeWork& work = context.batch.compute;
+            const plan::ComputeWork& work = context.batch.work;
             shader.dispatch_elements<plan::MaskShapesPush>(
                 commands, 0, work.mask_threads, first_mask_shape(context),
                 static_cast<std::uint32_t>(work.mask_shapes.size()),
@@ -67,7 +67,7 @@ void Masks::declare_collect(TileGraph& graph, graph::Handle shapes, graph::Handl
          {2, samples, write, sample_parts::summaries},
          {3, samples, write, sample_parts::samples}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            const plan::ComputeWork& work = context.batch.compute;
+            const plan::ComputeWork& work = context.batch.work;
             shader.dispatch_elements<plan::CollectMasksPush>(
                 commands, 0, work.overlap_rows,
                 first_mask_shape(context) +

@@ -2,7 +2,6 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/batch/batch_ring.hpp>
-#include <engine/plan/tile_reports.hpp>
 
 #include <algorithm>
 #include <string>
@@ -245,7 +244,7 @@ void BatchRing::collect(Ticket ticket, Results& results, Laps& laps) {
 void BatchRing::list_tiles(std::vector<TileReport>& tiles) const {
     tiles.clear();
     if (last_ != nullptr && last_->runner.device_queries() > 0) {
-        plan::report_tiles(last_->runner.plan(), tiles);
+        last_->runner.list_tiles(tiles);
     }
 }
 

@@ -53,28 +53,31 @@ void BatchRunner::begin_timings(std::size_t queries) {
     }
 }
 
-void BatchRunner::build_tile_batches() {
-    for (std::uint32_t number = 0; number < plan_.tile_batches; ++number) {
-        checkpoint();
-        planning_->builder.build(plan_, number, tile_batches_[number]);
-    }
-}
-
 void BatchRunner::make_tile_batches() {
-    planning_->builder.begin_batch();
-    tile_batches_.resize(std::max<std::size_t>(tile_batches_.size(), plan_.tile_batches));
-    build_tile_batches();
-    const auto tile_batches = std::span(tile_batches_).first(plan_.tile_batches);
-    // Shapes of earlier batches, or what they left as they grew, must not take up the room.
-    if (std::any_of(tile_batches.begin(), tile_batches.end(), [this](const auto& tile_batch) {
-            return tile_batch.compute.shape_bytes() > planning_->rule.largest_range;
-        })) {
-        planning_->builder.forget_shapes();
-        build_tile_batches();
+    std::span<const plan::ComputeBatch> computed;
+    if (slot_ != nullptr) {
+        std::uint32_t tile_batches = 0;
+        for (const auto& tiles : slot_->tiles()) {
+            tiles->build(plan_);
+            for (std::uint32_t number = 0; number < tiles->count(); ++number) {
+                note_places(tiles->batch(number), tile_batches++);
+            }
+        }
+        computed = slot_->computed().batches();
     }
-    resident_outputs_builder_.build(plan_, tile_batches, results_.results,
+    resident_outputs_builder_.build(plan_, computed, results_.results,
                                     renderer_ == nullptr ? 0 : renderer_->expected_records(),
                                     resident_);
+}
+
+/// For list_tiles(), which does not need the tile batch any more.
+void BatchRunner::note_places(const plan::TileBatch& batch, std::uint32_t number) {
+    for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
+        plan::Tile& tile = plan_.tiles[batch.tile_index[i]];
+        tile.tile_batch = number;
+        tile.atlas_x = batch.tiles[i].atlas_x;
+        tile.atlas_y = batch.tiles[i].atlas_y;
+    }
 }
 
 /// Divides the queries between the CPU and the device, and plans what the device answers. Those
@@ -103,7 +106,10 @@ void BatchRunner::take(const plan::CheckedQuery& checked) {
         planning_->planner.begin(queries_.size(), plan_);
     }
     for_device_.push_back(checked.index);
-    planning_->planner.add(checked, plan_, results_.results[checked.index]);
+    const auto plan_drawn_points = [this](plan::CurrentQuery& current, AnyResult& result) {
+        renderer_->plan_drawn_points(current, result);
+    };
+    planning_->planner.add(checked, plan_drawn_points, plan_, results_.results[checked.index]);
 }
 
 /// Makes what the device needs.
@@ -145,8 +151,7 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
         const render::SampleRoom room = submissions == plan::Submissions::one
                                             ? render::SampleRoom::all
                                             : render::SampleRoom::likely;
-        renderer_->prepare(std::span(tile_batches_).first(plan_.tile_batches), resident_,
-                           plan_.extent, room, *slot_, timings);
+        renderer_->prepare(resident_, room, *slot_, timings);
         renderer_->prepare_search(planning_->planner.search_shapes(), plan_.pairs, room, *slot_,
                                   timings);
         laps.next();
@@ -170,7 +175,7 @@ void BatchRunner::trim() noexcept {
 /// Resident samples need the device even without tile batches: to state that there are none.
 bool BatchRunner::has_device_work() const {
     return !for_device_.empty() &&
-           (plan_.tile_batches > 0 || !plan_.pairs.directions.empty() || !resident_.empty());
+           (!plan_.tiles.empty() || !plan_.pairs.directions.empty() || !resident_.empty());
 }
 
 void BatchRunner::solve(Laps& laps) {
@@ -280,10 +285,12 @@ void BatchRunner::read_back(Laps& laps) {
         const bool was_recorded = submission_state() == render::SubmissionState::recorded;
         wait();
         laps.next();
-        for (const std::uint32_t number : slot_->running()) {
-            if (slot_->tile_batch(number).had_room()) {
-                checkpoint();
-                decode(number);
+        for (const auto& tiles : slot_->tiles()) {
+            for (const std::uint32_t number : tiles->running()) {
+                if (tiles->had_room(number)) {
+                    checkpoint();
+                    decode(*tiles, number);
+                }
             }
         }
         take_found_pairs(was_recorded);
@@ -305,7 +312,7 @@ void BatchRunner::take_found_pairs(bool was_recorded) {
     if (!search->had_room()) {
         if (was_recorded) {
             answers_.pairs().leave_to_cpu();
-            slot_->run_those_without_room();  // the next commands have room
+            static_cast<void>(slot_->select_those_without_room());  // the next commands have room
         }
         return;
     }
@@ -422,16 +429,38 @@ void BatchRunner::time_device() {
     }
 }
 
-void BatchRunner::decode(std::uint32_t number) {
-    const plan::TileBatch& batch = tile_batches_[number];
+void BatchRunner::list_tiles(std::vector<TileReport>& reports) const {
+    reports.clear();
+    for (const plan::Tile& tile : plan_.tiles) {
+        const plan::PlannedQuery& planned = plan_.queries[tile.query];
+        const geometry::Vector low = tile.origin();
+        const geometry::Vector high =
+            low + tile.grid.cell * geometry::Vector(tile.width, tile.height);
+        TileReport& report = reports.emplace_back();
+        report.query = planned.index;
+        report.technique = planned.technique;
+        // The other direction of a query follows all queries of the batch.
+        report.side = planned.index == tile.query ? Side::a : Side::b;
+        report.min = geometry::to_public(low);
+        report.max = geometry::to_public(high);
+        report.width = tile.width;
+        report.height = tile.height;
+        report.tile_batch = tile.tile_batch;
+        report.x = tile.atlas_x;
+        report.y = tile.atlas_y;
+    }
+}
+
+void BatchRunner::decode(const render::TileWork& tiles, std::uint32_t number) {
+    const plan::TileBatch& batch = tiles.batch(number);
     std::vector<AnyResult>& results = results_.results;
-    answers_.add_points(batch, slot_->points(number));
-    answers_.add_field(plan_, batch, slot_->field_words(number), results);
-    if (slot_->tile_batch(number).had_long_searches) {
+    answers_.add_points(batch, tiles.points(number));
+    answers_.add_field(plan_, batch, tiles.field_words(number), results);
+    if (tiles.left_fields(number)) {
         answers_.refuse_fields(plan_, batch);
     }
-    readback::DeviceAnswers::add_summaries(plan_, batch, slot_->summaries(number), results);
-    answers_.add_samples(plan_, batch, slot_->samples(number));
+    readback::DeviceAnswers::add_summaries(plan_, batch, tiles.summaries(number), results);
+    answers_.add_samples(plan_, batch, tiles.samples(number));
 }
 
 }  // namespace nearfield::batch

@@ -5,13 +5,13 @@
 #include <engine/plan/checked_query.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/resident_outputs.hpp>
-#include <engine/plan/tile_batch.hpp>
 #include <engine/readback/device_answers.hpp>
 #include <engine/readback/result_writer.hpp>
 #include <engine/render/renderer.hpp>
 #include <engine/resident/resident_outputs_builder.hpp>
 #include <engine/solvers/solver_jobs.hpp>
 #include <nearfield/result.hpp>
+#include <nearfield/tile.hpp>
 
 #include <cstdint>
 #include <exception>
@@ -30,7 +30,6 @@ struct Planning {
     TechniqueRule rule;
     solvers::SolverJobs solvers;
     plan::Planner planner;
-    plan::TileBatchBuilder builder;
     readback::ResultWriter writer;
 
     Planning(const plan::PlanLimits& limits_of_device,
@@ -38,8 +37,7 @@ struct Planning {
         : limits(plan::with_affordable_atlas(limits_of_device)),
           rule{limits.techniques, limits.largest_range, thresholds},
           solvers(limits, jobs),
-          planner(limits),
-          builder(limits.subpixel) {}
+          planner(limits) {}
 };
 
 /// Runs one batch from queries to results, in two steps: everything up to its submission, and the
@@ -107,6 +105,8 @@ public:
     [[nodiscard]] std::size_t device_queries() const { return for_device_.size(); }
     /// The plan of these.
     [[nodiscard]] const plan::Plan& plan() const { return plan_; }
+    /// Replaces `reports` by one on each of their tiles.
+    void list_tiles(std::vector<TileReport>& reports) const;
     /// Contact queries of the device with gradient normals, which are not complete.
     [[nodiscard]] std::span<const std::uint32_t> with_gradient_normals() const {
         return for_device_.empty() ? std::span<const std::uint32_t>() : plan_.with_gradient_normals;
@@ -128,13 +128,13 @@ private:
     void time_device();
     [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
     void make_tile_batches();
-    void build_tile_batches();
+    void note_places(const plan::TileBatch& batch, std::uint32_t number);
     void finish_plan();
     void wait();
     void read_back(Laps& laps);
     void take_found_pairs(bool was_recorded);
     void check_room_for_records();
-    void decode(std::uint32_t number);
+    void decode(const render::TileWork& tiles, std::uint32_t number);
     template <class Query>
     void require_on_device(QueryHandle<Query> handle) const;
     [[nodiscard]] PointsOnDevice resident_records(std::uint32_t query) const;
@@ -149,7 +149,6 @@ private:
     std::vector<std::uint32_t> for_device_;  // their places in the batch
     // Only if a device answers some of the queries.
     plan::Plan plan_;
-    std::vector<plan::TileBatch> tile_batches_;  // the first Plan::tile_batches of them
     resident::ResidentOutputsBuilder resident_outputs_builder_;
     plan::ResidentOutputs resident_;
     readback::DeviceAnswers answers_;

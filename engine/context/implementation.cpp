@@ -1,17 +1,28 @@
 #include <engine/context/implementation.hpp>
 #include <engine/plan/check_query.hpp>
+#ifdef NEARFIELD_HAS_RASTER
+#include <engine/raster/raster.hpp>
+#endif
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 namespace nearfield {
 namespace {
 
-geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
-    return {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
+#ifdef NEARFIELD_HAS_RASTER
+constexpr bool has_raster = true;
+
+std::unique_ptr<render::TileTechnique> make_raster(const gpu::Device& device,
+                                                   const graph::ComputeLayout& layout,
+                                                   bool makes_pipelines) {
+    return std::make_unique<raster::Raster>(device, layout, makes_pipelines);
 }
+#else
+constexpr bool has_raster = false;
+constexpr render::MakeTileTechnique make_raster = nullptr;
+#endif
 
 /// `device` is null for a context without one.
 plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings,
@@ -28,7 +39,8 @@ plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings
         return limits;
     }
     limits.techniques.draws = device->draws();
-    limits.subpixel = subpixel_grid(*device);
+    limits.techniques.has_raster = has_raster;
+    limits.subpixel = {device->subpixel_steps()};
     limits.largest_atlas = std::min(limits.largest_atlas, device->limits().maxImageDimension2D);
     limits.largest_image = device->limits().maxImageDimension2D;
     limits.largest_range = device->limits().maxStorageBufferRange;
@@ -50,9 +62,9 @@ Settings without_device(Settings settings) {
     return settings;
 }
 
-/// Without the raster where the queue family does not draw.
+/// Without the raster where the queue family does not draw, or the library has none.
 Settings settings_for(Settings settings, const gpu::Device& device) {
-    settings.techniques.raster = settings.techniques.raster && device.draws();
+    settings.techniques.raster = settings.techniques.raster && device.draws() && has_raster;
     return settings;
 }
 
@@ -65,7 +77,9 @@ Status device_is_lost() {
 
 Context::Implementation::Machinery::Machinery(const gpu::Device* device, const Settings& settings,
                                               batch::ShapeStore& shapes)
-    : renderer(device == nullptr ? nullptr : std::make_unique<render::Renderer>(*device, settings)),
+    : renderer(device == nullptr
+                   ? nullptr
+                   : std::make_unique<render::Renderer>(*device, settings, make_raster)),
       ring(settings.batches_in_flight, plan_limits(device, settings, shapes.errors()),
            thresholds_of(device, settings), settings.jobs, renderer.get(), shapes) {}
 

@@ -13,7 +13,7 @@ bool is_same(const Bits& a, const Bits& b) {
 
 }  // namespace
 
-RecentlyPlaced::Entry& RecentlyPlaced::entry_of(const Polygon& polygon, const Pose& pose) {
+BoxedPolygon RecentlyPlaced::place(const Polygon& polygon, const Pose& pose) {
     const PoseBits bits{std::bit_cast<std::uint64_t>(pose.translation.x),
                         std::bit_cast<std::uint64_t>(pose.translation.y),
                         std::bit_cast<std::uint64_t>(pose.angle)};
@@ -25,22 +25,13 @@ RecentlyPlaced::Entry& RecentlyPlaced::entry_of(const Polygon& polygon, const Po
         hash ^= hash >> 32U;
     }
     Entry& entry = entries_[hash % entries_.size()];
-    if (!entry.placed || &entry.placed->polygon() != &polygon ||
+    if (!entry.instance || &entry.instance->placed.polygon() != &polygon ||
         entry.revision != polygon.revision() || !is_same(entry.pose, bits)) {
         entry.revision = polygon.revision();
         entry.pose = bits;
-        entry.placed.emplace(polygon, pose);
-        entry.box.reset();
+        entry.instance.emplace(polygon, pose);
     }
-    return entry;
-}
-
-BoxedPolygon RecentlyPlaced::place_with_box(const Polygon& polygon, const Pose& pose) {
-    Entry& entry = entry_of(polygon, pose);
-    if (!entry.box) {
-        entry.box = entry.placed->box();
-    }
-    return {*entry.placed, *entry.box};
+    return *entry.instance;
 }
 
 }  // namespace nearfield::geometry

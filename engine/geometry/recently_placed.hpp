@@ -14,8 +14,6 @@ struct BoxedPolygon {
     TransformedPolygon placed;
     Box box;
 
-    BoxedPolygon(const TransformedPolygon& polygon, const Box& its_box)
-        : placed(polygon), box(its_box) {}
     BoxedPolygon(const Polygon& polygon, const Pose& pose)
         : placed(polygon, pose), box(placed.box()) {}
 };
@@ -29,10 +27,7 @@ public:
     /// How many it remembers at most.
     explicit RecentlyPlaced(std::size_t count) : entries_(count) {}
 
-    [[nodiscard]] TransformedPolygon place(const Polygon& polygon, const Pose& pose) {
-        return *entry_of(polygon, pose).placed;
-    }
-    [[nodiscard]] BoxedPolygon place_with_box(const Polygon& polygon, const Pose& pose);
+    [[nodiscard]] BoxedPolygon place(const Polygon& polygon, const Pose& pose);
 
 private:
     /// Of a pose, bit for bit.
@@ -40,10 +35,8 @@ private:
     struct Entry {
         std::uint64_t revision = 0;
         PoseBits pose{};
-        std::optional<TransformedPolygon> placed;
-        std::optional<Box> box;
+        std::optional<BoxedPolygon> instance;
     };
-    [[nodiscard]] Entry& entry_of(const Polygon& polygon, const Pose& pose);
 
     std::vector<Entry> entries_;  // by hash
 };

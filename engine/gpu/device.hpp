@@ -72,6 +72,10 @@ public:
     }
     /// What the queue family can do.
     [[nodiscard]] VkQueueFlags queue_flags() const { return queue_flags_; }
+    /// Into how many parts the rasteriser divides a pixel along an axis.
+    [[nodiscard]] double subpixel_steps() const {
+        return static_cast<double>(std::uint64_t{1} << limits().subPixelPrecisionBits);
+    }
     /// The queue family draws; otherwise there is no Technique::raster.
     [[nodiscard]] bool draws() const { return (queue_flags_ & VK_QUEUE_GRAPHICS_BIT) != 0; }
     /// All queue families that use resident results, without repetition; empty if only

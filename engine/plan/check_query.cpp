@@ -95,6 +95,10 @@ Status no_technique(Technique technique, const AvailableTechniques& available) {
                     " draws, and the host's queue family does not (it lacks "
                     "VK_QUEUE_GRAPHICS_BIT); ask for compute, cpu or automatic"};
     }
+    if (technique == Technique::raster && !available.has_raster) {
+        return {StatusCode::unsupported_technique,
+                "this library was built without " + needs + "; ask for compute, cpu or automatic"};
+    }
     return {StatusCode::unsupported_technique,
             "this context was made without " + needs +
                 " (Settings::techniques); add it there, or ask for automatic"};
@@ -109,9 +113,10 @@ Status none_answers(const char* what, const AvailableTechniques& available) {
     }
     return {StatusCode::unsupported_technique,
             std::string("no technique that this context has (Settings::techniques") +
-                (available.draws ? ""
-                                 : "; the host's queue family lacks VK_QUEUE_GRAPHICS_BIT, so "
-                                   "raster is not among them") +
+                (!available.draws       ? "; the host's queue family lacks VK_QUEUE_GRAPHICS_BIT, "
+                                          "so raster is not among them"
+                 : available.has_raster ? ""
+                                        : "; this library was built without raster") +
                 ") answers " + what};
 }
 

@@ -1,5 +1,7 @@
+#include <engine/base/interruption.hpp>
 #include <engine/plan/compute_batch_builder.hpp>
-#include <engine/plan/tile_batch.hpp>
+
+#include <algorithm>
 
 namespace nearfield::plan {
 namespace {
@@ -23,6 +25,17 @@ std::uint32_t words_per_row(const Tile& tile) {
     return (tile.width + 31) / 32;
 }
 
+/// Whole words and rows count, and of fields whole regions.
+double cells_in_memory(const Tile& tile) {
+    const auto whole = [](std::uint32_t cells, std::uint32_t step) {
+        const std::uint32_t steps = (cells + step - 1) / step;
+        return static_cast<double>(steps) * step;
+    };
+    return tile.kind == TileKind::field
+               ? whole(tile.width, region_side) * whole(tile.height, region_side)
+               : whole(tile.width, 32) * tile.height;
+}
+
 /// Reserves a mask; returns its first word.
 std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
     const auto first = static_cast<std::uint32_t>(work.mask_words);
@@ -32,8 +45,78 @@ std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
 
 }  // namespace
 
-void ComputeBuilder::add_mask_shape(const ShapeInTileData& seen, const Tile& tile, double reach,
-                                    std::uint32_t first_edge, ComputeWork& work) const {
+void ComputeBatch::clear() {
+    TileBatch::clear();
+    work.clear();
+    keeps_hits = false;
+    resident = false;
+}
+
+std::uint32_t ComputeBatchBuilder::build(const Plan& plan, std::uint64_t largest_range,
+                                         std::vector<ComputeBatch>& batches) {
+    shapes_.begin_batch();
+    const std::uint32_t count = build_all(plan, batches);
+    // Shapes of earlier batches, or what they left as they grew, must not take up the room.
+    if (std::any_of(batches.begin(), batches.begin() + count, [&](const ComputeBatch& batch) {
+            return batch.work.shape_bytes() > largest_range;
+        })) {
+        shapes_.clear();
+        return build_all(plan, batches);
+    }
+    return count;
+}
+
+std::uint32_t ComputeBatchBuilder::build_all(const Plan& plan, std::vector<ComputeBatch>& batches) {
+    const double most = static_cast<double>(plan.largest_atlas) * plan.largest_atlas;
+    double cells = most;
+    std::uint32_t count = 0;
+    tile_of_plan_.resize(plan.tiles.size());
+    for (std::uint32_t i = 0; i < plan.tiles.size(); ++i) {
+        const Tile& tile = plan.tiles[i];
+        const PlannedQuery& query = plan.queries[tile.query];
+        if (query.technique != Technique::compute) {
+            continue;
+        }
+        checkpoint();
+        cells += cells_in_memory(tile);
+        if (cells > most) {
+            cells = cells_in_memory(tile);
+            batches.resize(std::max<std::size_t>(batches.size(), ++count));
+            batches[count - 1].clear();
+        }
+        ComputeBatch& batch = batches[count - 1];
+        tile_of_plan_[i] = {count - 1, static_cast<std::uint32_t>(batch.work.fields.tiles.size())};
+        batch.add_tile(tile, i);
+        add_tile(query, tile, batch);
+    }
+    for (std::uint32_t i = 0; i < plan.field_points.size(); ++i) {
+        const PlannedFieldPoint& point = plan.field_points[i];
+        const Tile& tile = plan.tiles[point.tile];
+        if (plan.queries[tile.query].technique == Technique::compute) {
+            const TileOfBatch& of = tile_of_plan_[point.tile];
+            add_field_point(tile, of.field_tile, point, batches[of.batch].work.fields);
+            batches[of.batch].add_field_point(plan, i);
+        }
+    }
+    return count;
+}
+
+void ComputeBatchBuilder::add_tile(const PlannedQuery& query, const Tile& tile,
+                                   ComputeBatch& batch) {
+    if (tile.kind == TileKind::field) {
+        batch.resident = batch.resident || query.on_device;
+        add_field_tile(query, tile, batch.add_field_tile(query, tile), batch.work);
+        return;
+    }
+    const OverlapTile overlap =
+        batch.add_overlap_tile(std::get<IntersectionQuery>(*query.query), tile);
+    batch.keeps_hits = batch.keeps_hits || overlap.keeps_hits;
+    add_overlap_tile(query, tile, overlap, batch.work);
+}
+
+void ComputeBatchBuilder::add_mask_shape(const ShapeInTileData& seen, const Tile& tile,
+                                         double reach, std::uint32_t first_edge,
+                                         ComputeWork& work) const {
     // Above this a thread takes the edges of more chunks, so that what is far away is passed over
     // box by box.
     constexpr std::uint32_t many_threads = 256;
@@ -48,8 +131,8 @@ void ComputeBuilder::add_mask_shape(const ShapeInTileData& seen, const Tile& til
     work.mask_threads += (places + (1U << shift) - 1) >> shift;
 }
 
-void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
-                                    const FieldTile& field, ComputeWork& work) {
+void ComputeBatchBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
+                                         const FieldTile& field, ComputeWork& work) {
     const bool any_cells = field.first_value != not_asked || field.first_feature != not_asked;
     const std::uint32_t mask = any_cells ? add_mask(tile, work) : 0;
     const ShapeInTileData seen = plan::add_field_tile(query, tile, mask, field.first_value,
@@ -60,8 +143,8 @@ void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
     }
 }
 
-void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
-                                      const OverlapTile& asked, ComputeWork& work) {
+void ComputeBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
+                                           const OverlapTile& asked, ComputeWork& work) {
     const double reach = query.budget.offset / tile.grid.cell;
     const bool is_volume_a = asked.part_a == Part::volume;
     const bool is_volume_b = asked.part_b == Part::volume;

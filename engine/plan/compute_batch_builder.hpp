@@ -3,21 +3,35 @@
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/shapes_in_tiles.hpp>
+#include <engine/plan/tile_batch.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace nearfield::plan {
 
-struct FieldTile;
-struct OverlapTile;
+/// A tile batch of the compute technique.
+struct ComputeBatch : TileBatch {
+    ComputeWork work;
+    bool keeps_hits = false;  ///< there are overlap tiles whose hits are kept
+    bool resident = false;    ///< there are fields that stay on the device
 
-/// Turns the tiles of a tile batch of the compute technique into its work: masks, fields, lists of
-/// near edges. Keeps its scratch memory.
-class ComputeBuilder {
+    void clear();
+};
+
+/// Divides the tiles of the compute technique among tile batches, and turns those of each into its
+/// work: masks and fields. Keeps its scratch memory.
+class ComputeBatchBuilder {
 public:
-    /// Call first in each batch.
-    void begin_batch() { shapes_.begin_batch(); }
-    void forget_shapes() { shapes_.clear(); }
+    /// Replaces the first tile batches; returns their number. Each takes as many cells as an atlas
+    /// image has, which bounds the memory for masks and lists. `largest_range`: bytes that a shader
+    /// can address.
+    [[nodiscard]] std::uint32_t build(const Plan& plan, std::uint64_t largest_range,
+                                      std::vector<ComputeBatch>& batches);
+
+private:
+    [[nodiscard]] std::uint32_t build_all(const Plan& plan, std::vector<ComputeBatch>& batches);
+    void add_tile(const PlannedQuery& query, const Tile& tile, ComputeBatch& batch);
     /// Adds a field tile. `field` says where in the read-back the requested outputs go.
     void add_field_tile(const PlannedQuery& query, const Tile& tile, const FieldTile& field,
                         ComputeWork& work);
@@ -25,13 +39,16 @@ public:
     /// boundary.
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, const OverlapTile& asked,
                           ComputeWork& work);
-
-private:
     /// Adds a shape with a mask of a tile. `reach`, `first_edge`: see MaskShapeData.
     void add_mask_shape(const ShapeInTileData& seen, const Tile& tile, double reach,
                         std::uint32_t first_edge, ComputeWork& work) const;
 
     ShapesInTiles shapes_;
+    struct TileOfBatch {
+        std::uint32_t batch = 0;
+        std::uint32_t field_tile = 0;  // among the field tiles of the batch
+    };
+    std::vector<TileOfBatch> tile_of_plan_;  // by tile of the plan
 };
 
 }  // namespace nearfield::plan

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/base/stopwatch.hpp>
+#include <engine/geometry/recently_placed.hpp>
 #include <engine/localize/overlap.hpp>
 #include <engine/plan/memory_budget.hpp>
 #include <engine/plan/plan.hpp>
@@ -45,5 +46,13 @@ void find_chains(Plan& plan, ResultSummary& result, std::vector<localize::Chain>
     count_chains(search(), chains, result);
     plan.localize_milliseconds += start.milliseconds();
 }
+
+/// Checks that deviations and coordinates of a query about points are compatible with the
+/// tolerance; the result states the error.
+[[nodiscard]] bool check_numbers(const PlannedQuery& planned, const geometry::BoxedPolygon& a,
+                                 const geometry::BoxedPolygon& b, ResultSummary& result);
+
+/// Adds the other direction of the query: points of B in the field of A.
+[[nodiscard]] std::uint32_t add_reverse(CurrentQuery& current);
 
 }  // namespace nearfield::plan

@@ -11,12 +11,6 @@ void Plan::clear() {
     tiles.clear();
     points.clear();
     field_points.clear();
-    extent = {};
-    tile_batches = 0;
-    raster_tile_batches = 0;
-    tiles_by_batch.clear();
-    points_by_batch.clear();
-    field_points_by_batch.clear();
     result_bytes = 0.0;
     localize_milliseconds = 0.0;
 }

@@ -2,7 +2,6 @@
 
 #include <engine/geometry/mesh.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
-#include <engine/plan/atlas.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/checked_query.hpp>
 #include <engine/plan/error_budget.hpp>
@@ -17,7 +16,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <variant>
 #include <vector>
@@ -30,7 +28,7 @@ enum class TileKind : std::uint8_t {
     overlap,  ///< samples in both shapes
 };
 
-/// A rectangle of cells of one query's grid, and its place in the atlas.
+/// A rectangle of cells of one query's grid.
 struct Tile {
     std::uint32_t query = 0;
     TileKind kind{};
@@ -41,7 +39,10 @@ struct Tile {
     std::uint32_t width = 0;  ///< drawn, the halo included
     std::uint32_t height = 0;
     std::uint32_t halo = 0;  ///< cells drawn around the tile's own cells, on every side
-    AtlasPlace place;
+    std::uint32_t tile_batch =
+        0;  ///< that it is part of, and its place in the atlas if it is drawn
+    std::uint32_t atlas_x = 0;
+    std::uint32_t atlas_y = 0;
     /// The blocks of the tile that hold points; all of them for a field. Unused for overlap.
     NeededBlocks needed;
 
@@ -104,8 +105,7 @@ struct PlannedField {
     double farthest = 0.0;
 };
 
-/// The planned form of a query that a device answers, or of one direction of it. Tiles of
-/// Technique::compute have no place in the atlas, and tile batches of their own.
+/// The planned form of a query that a device answers, or of one direction of it.
 struct PlannedQuery : CheckedQuery {
     /// Its results stay on the device as well.
     bool on_device = false;
@@ -137,41 +137,7 @@ struct GivenPairs {
     }
 };
 
-/// Indices of an array, sorted by tile batch; original order within each tile batch.
-class ByTileBatch {
-public:
-    /// `tile_batch_of(i)` is the tile batch of element i, below `tile_batches`.
-    template <class RoundOf>
-    void sort(std::size_t count, std::uint32_t tile_batches, RoundOf&& tile_batch_of) {
-        starts_.assign(tile_batches + 1, 0);
-        for (std::size_t i = 0; i < count; ++i) {
-            ++starts_[tile_batch_of(i)];
-        }
-        // Backwards, so that the end of each tile batch moves down to its start.
-        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-        order_.resize(count);
-        for (std::size_t i = count; i > 0; --i) {
-            order_[--starts_[tile_batch_of(i - 1)]] = static_cast<std::uint32_t>(i - 1);
-        }
-    }
-    void clear() {
-        starts_.clear();
-        order_.clear();
-    }
-
-    /// The elements of a tile batch.
-    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t tile_batch) const {
-        return std::span(order_).subspan(starts_[tile_batch],
-                                         starts_[tile_batch + 1] - starts_[tile_batch]);
-    }
-
-private:
-    std::vector<std::uint32_t> starts_;  // by tile batch; then the end of the last
-    std::vector<std::uint32_t> order_;
-};
-
-/// The queries of a batch that a device answers, as tiles and searches: what is rendered, where,
-/// and for which query.
+/// The queries of a batch that a device answers, as tiles and searches.
 struct Plan {
     /// By position in the batch, where a device answers, followed by the other directions of some
     /// queries.
@@ -183,13 +149,9 @@ struct Plan {
     std::vector<Tile> tiles;
     std::vector<PlannedPoint> points;             ///< in order of queries, then along A's rings
     std::vector<PlannedFieldPoint> field_points;  ///< by query, then as in the query
-    TileSize extent;                              ///< of the atlas
-    std::uint32_t tile_batches = 0;
-    std::uint32_t raster_tile_batches =
-        0;  ///< the first ones; the others are the compute technique's
-    ByTileBatch tiles_by_batch;
-    ByTileBatch points_by_batch;
-    ByTileBatch field_points_by_batch;
+    /// Cells along a side of the largest image of drawn tiles. A tile batch of the compute
+    /// technique takes as many cells as it has.
+    std::uint32_t largest_atlas = 0;
     /// Bytes that all results may need on the host.
     double result_bytes = 0.0;
     double localize_milliseconds = 0.0;  ///< spent in hierarchies

@@ -2,7 +2,6 @@
 
 #include <engine/base/shape_errors.hpp>
 #include <engine/geometry/mesh.hpp>
-#include <engine/plan/atlas.hpp>
 #include <engine/plan/technique.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
@@ -13,6 +12,11 @@
 #include <vector>
 
 namespace nearfield::plan {
+
+/// Minimum side of an atlas image of drawn tiles, in cells, without its last gap.
+inline constexpr std::uint32_t smallest_atlas = 256;
+/// The same of the largest. Twice as many cells fit into a viewport of any device.
+inline constexpr std::uint32_t largest_atlas_side = 2048;
 
 /// Limits set by the device and the caller.
 struct PlanLimits {

@@ -7,42 +7,41 @@
 namespace nearfield::plan {
 
 Planner::Planner(const PlanLimits& limits)
-    : limits_(with_affordable_atlas(limits)),
-      targets_(limits.offset_alignment),
-      points_(limits_),
-      packer_(limits_.largest_atlas) {}
+    : limits_(with_affordable_atlas(limits)), targets_(limits.offset_alignment) {}
 
 void Planner::begin(std::size_t queries, Plan& plan) {
     memory_.emplace(limits_);
     plan.clear();
     targets_.clear();
+    plan.largest_atlas = limits_.largest_atlas;
     plan.queries.resize(queries);
 }
 
-void Planner::add(const CheckedQuery& checked, Plan& plan, AnyResult& any) {
+void Planner::add(const CheckedQuery& checked, const PlanDrawnPoints& plan_drawn, Plan& plan,
+                  AnyResult& any) {
     PlannedQuery& planned = plan.queries[checked.index];
     static_cast<CheckedQuery&>(planned) = checked;
     planned.on_device = false;
     planned.work = std::monostate();
     std::visit(
         [&]<class Query>(const Query& query) {
-            auto& result = std::get<typename Query::Result>(any);
+            const double tolerance = std::get<typename Query::Result>(any).tolerance;
             CurrentQuery current{limits_, plan, checked.index,
-                                 QueryMemory(*memory_, checked.index, result.tolerance)};
-            plan_query(query, current, result);
+                                 QueryMemory(*memory_, checked.index, tolerance)};
+            plan_query(query, plan_drawn, current, any);
         },
         *checked.query);
 }
 
 void Planner::finish(Plan& plan) {
-    points_.finish(limits_, plan);
+    searches_.finish(limits_, plan);
     plan.result_bytes = memory_->result_bytes();
-    packer_.pack(plan);
 }
 
 template <class Query>
-void Planner::plan_query(const Query& query, CurrentQuery& current,
-                         typename Query::Result& result) {
+void Planner::plan_query(const Query& query, const PlanDrawnPoints& plan_drawn,
+                         CurrentQuery& current, AnyResult& any) {
+    auto& result = std::get<typename Query::Result>(any);
     if constexpr (requires { query.on_device; }) {
         current.planned().on_device = query.on_device;
         if (query.on_device) {
@@ -51,8 +50,21 @@ void Planner::plan_query(const Query& query, CurrentQuery& current,
     }
     if (Status status = add_target(query, current.index); !status.ok()) {
         result.status = std::move(status);
+    } else if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {
+        fields_.plan(query, current, result);
+    } else if constexpr (std::is_same_v<Query, IntersectionQuery>) {
+        overlaps_.plan(query, current, result);
     } else if constexpr (answered_by_cpu_alone<Query> == nullptr) {
-        planner_of(query).plan(query, current, result);
+        if constexpr (std::is_same_v<Query, ContactQuery>) {
+            if (query.normals == ContactNormals::gradient) {
+                current.plan.with_gradient_normals.push_back(current.index);
+            }
+        }
+        if (current.planned().technique == Technique::raster) {
+            plan_drawn(current, any);
+        } else if constexpr (!is_left_to_cpu_by_compute<Query>) {
+            searches_.plan(query, current, result);
+        }
     }
     if (!result.status.ok()) {
         targets_.drop(current.index);

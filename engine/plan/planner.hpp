@@ -7,19 +7,22 @@
 #include <engine/plan/overlap_planner.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/plan_limits.hpp>
-#include <engine/plan/point_planner.hpp>
-#include <engine/plan/tile_packer.hpp>
+#include <engine/plan/search_planner.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 namespace nearfield::plan {
 
+/// Plans a query about points of technique raster, as PointPlanner of that module does it.
+using PlanDrawnPoints = std::function<void(CurrentQuery&, AnyResult&)>;
+
 /// Turns checked queries that a device answers into tiles and searches: has each planned by the
-/// planner of its kind, and packs all tiles of the batch. Keeps its scratch memory from batch to
-/// batch. Fills a plan and, in results, everything known before rendering: bounds, regions.
+/// planner of its kind. Keeps its scratch memory from batch to batch. Fills a plan and, in results,
+/// everything known before rendering: bounds, regions.
 class Planner {
 public:
     explicit Planner(const PlanLimits& limits);
@@ -29,35 +32,28 @@ public:
     /// Plans one of them, which has just been checked. An error is stated in its result and leaves
     /// it without tiles. Throws StatusException (too_large) if the batch needs more memory than the
     /// limit.
-    void add(const CheckedQuery& checked, Plan& plan, AnyResult& any);
+    void add(const CheckedQuery& checked, const PlanDrawnPoints& plan_drawn, Plan& plan,
+             AnyResult& any);
     /// After the last one.
     void finish(Plan& plan);
     /// The shapes that the device searches.
-    [[nodiscard]] const SearchShapes& search_shapes() const { return points_.search_shapes(); }
+    [[nodiscard]] const SearchShapes& search_shapes() const { return searches_.shapes(); }
 
 private:
     /// Plans a query, or states in its result why it is rejected.
     template <class Query>
-    void plan_query(const Query& query, CurrentQuery& current, typename Query::Result& result);
+    void plan_query(const Query& query, const PlanDrawnPoints& plan_drawn, CurrentQuery& current,
+                    AnyResult& any);
     /// Adds what the query writes to, if the host names it; returns what is wrong with it.
     template <class Query>
     [[nodiscard]] Status add_target(const Query& query, std::uint32_t index);
-    template <class Query>
-    [[nodiscard]] PointPlanner& planner_of(const Query& /*query*/) {
-        return points_;
-    }
-    [[nodiscard]] FieldPlanner& planner_of(const DistanceFieldQuery& /*query*/) { return fields_; }
-    [[nodiscard]] OverlapPlanner& planner_of(const IntersectionQuery& /*query*/) {
-        return overlaps_;
-    }
 
     PlanLimits limits_;
     Targets targets_;  // of the batch, as is the next
     std::optional<MemoryBudget> memory_;
-    PointPlanner points_;
+    SearchPlanner searches_;
     FieldPlanner fields_;
     OverlapPlanner overlaps_;
-    TilePacker packer_;
 };
 
 }  // namespace nearfield::plan

@@ -1,11 +1,11 @@
 #include <engine/base/interruption.hpp>
-#include <engine/plan/asked_points.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/edge_sampler.hpp>
 #include <engine/plan/point_search.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace nearfield::plan {
@@ -86,6 +86,12 @@ void GivenPairsBuilder::fit(std::uint64_t largest_range, Plan& plan) {
         checkpoint.step();
         place(plan.queries[data.a], data);
     }
+}
+
+double reach_of(const PlannedQuery& query) {
+    const auto* const contacts = std::get_if<ContactQuery>(query.query);
+    return contacts == nullptr ? std::numeric_limits<double>::infinity()
+                               : contacts->contact_distance;
 }
 
 }  // namespace nearfield::plan

@@ -64,4 +64,8 @@ private:
     SearchShapes shapes_;
 };
 
+/// The largest distance from B at which points outside B matter; infinity where no distance is too
+/// large.
+[[nodiscard]] double reach_of(const PlannedQuery& query);
+
 }  // namespace nearfield::plan

@@ -9,8 +9,9 @@ namespace nearfield::plan {
 
 /// The techniques available in a context. The CPU's always is.
 struct AvailableTechniques {
-    bool device = true;  ///< false: neither of the two below is available
-    bool draws = true;   ///< false: the device's queue family does not, so there is no raster
+    bool device = true;      ///< false: neither of the two below is available
+    bool draws = true;       ///< false: the device's queue family does not, so there is no raster
+    bool has_raster = true;  ///< false: the library was built without it
     bool raster = true;
     bool compute = true;
 

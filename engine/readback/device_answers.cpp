@@ -37,10 +37,7 @@ void DeviceAnswers::add_summaries(const plan::Plan& plan, const plan::TileBatch&
 void DeviceAnswers::add_samples(const plan::Plan& plan, const plan::TileBatch& batch,
                                 std::span<const plan::SampleData> samples) {
     const auto run_of = [&](const plan::SampleData& sample) -> plan::EdgeRun {
-        if (batch.by_compute) {
-            return {sample.run, 1};
-        }
-        return batch.runs.empty() ? plan::EdgeRun{} : batch.runs[sample.run];
+        return batch.runs.empty() ? plan::EdgeRun{sample.run, 1} : batch.runs[sample.run];
     };
     for (const plan::SampleData& sample : samples) {
         const std::uint32_t index = batch.tile_index[sample.tile];

@@ -1,6 +1,5 @@
 #include <engine/base/interruption.hpp>
 #include <engine/localize/hierarchy.hpp>
-#include <engine/plan/asked_points.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/point_search.hpp>
 #include <engine/readback/point_resolver.hpp>

@@ -32,8 +32,8 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
       long_searches_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                      "nearfield long searches") {}
 
-void ComputeBuffers::upload(const plan::TileBatch& batch) {
-    const plan::ComputeWork& work = batch.compute;
+void ComputeBuffers::upload(const plan::ComputeBatch& batch) {
+    const plan::ComputeWork& work = batch.work;
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
     require_range(*device_, scratch_bytes_, "the masks and lists");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
@@ -83,7 +83,7 @@ bool ComputeBuffers::had_long_searches() const {
     return count > 0;
 }
 
-void ComputeBuffers::bind(const TileHandles& handles, graph::BoundResources& resources) const {
+void ComputeBuffers::bind(const ComputeHandles& handles, graph::BoundResources& resources) const {
     resources.set(handles.scratch, scratch());
     resources.set(handles.shapes, shapes_.part(0, shape_bytes_));
     resources.set(handles.crowd, crowd_.part(0, smallest_part));

@@ -3,12 +3,19 @@
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/graph/bound_resources.hpp>
-#include <engine/plan/tile_batch.hpp>
-#include <engine/render/compiled_graph.hpp>
+#include <engine/plan/compute_batch_builder.hpp>
 
 #include <cstdint>
 
 namespace nearfield::render {
+
+/// The imported handles of a tile batch's input and memory; null where its passes need none.
+struct ComputeHandles {
+    graph::Handle shapes;  ///< in tiles
+    graph::Handle scratch;
+    graph::Handle crowd;          ///< arguments of the dispatch for crowded blocks
+    graph::Handle long_searches;  ///< in crowded blocks
+};
 
 /// The memory of the compute technique beyond the read-back: its input, and scratch memory that
 /// never leaves the device. Both only grow.
@@ -18,7 +25,7 @@ public:
 
     /// Uploads a tile batch. Throws StatusException (too_large) if a part exceeds what a storage
     /// buffer of the device may hold.
-    void upload(const plan::TileBatch& batch);
+    void upload(const plan::ComputeBatch& batch);
 
     /// Units of the shapes themselves, as uploaded: a later batch may have changed what is kept.
     [[nodiscard]] std::uint32_t shape_units() const { return shape_units_; }
@@ -30,7 +37,7 @@ public:
     /// The part of the scratch memory that the last uploaded tile batch uses.
     [[nodiscard]] gpu::BufferPart scratch() const { return scratch_.part(0, scratch_bytes_); }
     /// Sets what passes bind of the last uploaded tile batch.
-    void bind(const TileHandles& handles, graph::BoundResources& resources) const;
+    void bind(const ComputeHandles& handles, graph::BoundResources& resources) const;
 
 private:
     void upload_shapes(const plan::ComputeWork& work);

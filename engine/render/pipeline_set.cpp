@@ -1,39 +1,9 @@
 #include <engine/render/pipeline_set.hpp>
-#include <passes/prototype.hpp>
-#include <passes/tile_renderer.hpp>
-
-#include <shaders/number_frag.hpp>
 
 #include <algorithm>
 #include <cstddef>
 
 namespace nearfield::render {
-
-RasterPipelines::RasterPipelines(const gpu::Device& device, const graph::ComputeLayout& layout)
-    : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
-                                                  device.stencil_format(), "stencil")),
-      distance_render_pass_(passes::make_prototype(device, passes::number_format,
-                                                   passes::distance_depth_format, "distance")),
-      white_render_pass_(
-          passes::make_prototype(device, passes::white_format, VK_FORMAT_UNDEFINED, "white")),
-      signed_feature_render_pass_(passes::make_prototype(
-          device, passes::signed_feature_format, passes::distance_depth_format, "signed feature")),
-      gradient_render_pass_(passes::make_prototype(device, device.gradient_format(),
-                                                   VK_FORMAT_UNDEFINED, "gradient")),
-      draw_layout_(passes::make_draw_layout(device)),
-      stencil_(device, draw_layout_.get(), stencil_render_pass_.get(), shaders::number_frag,
-               "stencil"),
-      strategies_(device, draw_layout_.get(), stencil_render_pass_.get(), stencil_),
-      fill(device, draw_layout_.get(), stencil_),
-      color_fill(device, draw_layout_.get(), white_render_pass_.get()),
-      cone_mesh(device, draw_layout_.get(), distance_render_pass_.get()),
-      feature_bit(device, draw_layout_.get(), signed_feature_render_pass_.get()),
-      gradient(device, layout, gradient_render_pass_.get()),
-      early_out(device),
-      intersect(device, draw_layout_.get(), strategies_, early_out),
-      resolve_points(device, layout),
-      resolve_field(device, layout),
-      collect(device, layout) {}
 
 ExportPipelines::ExportPipelines(const gpu::Device& device, const graph::ComputeLayout& layout)
     : copy_back(device),
@@ -61,9 +31,6 @@ const passes::WorldQueries& PipelineSet::world_queries(plan::WorldQuestion quest
 
 void PipelineSet::make(const DeviceTechniques& techniques) const {
     static_cast<void>(exports());
-    if (techniques.raster) {
-        static_cast<void>(raster());
-    }
     if (techniques.compute) {
         static_cast<void>(masks());
         static_cast<void>(fields());

@@ -4,60 +4,19 @@
 #include <engine/gpu/device.hpp>
 #include <engine/graph/compute_layout.hpp>
 #include <nearfield/context.hpp>
-#include <passes/collect.hpp>
-#include <passes/color_fill.hpp>
-#include <passes/cone_mesh.hpp>
-#include <passes/early_out.hpp>
 #include <passes/export_pairs.hpp>
 #include <passes/exports.hpp>
-#include <passes/feature_bit.hpp>
 #include <passes/fields.hpp>
-#include <passes/fill.hpp>
-#include <passes/gradient.hpp>
-#include <passes/intersect.hpp>
-#include <passes/intersection_strategies.hpp>
 #include <passes/masks.hpp>
 #include <passes/pair_poses.hpp>
 #include <passes/pair_search.hpp>
-#include <passes/resolve_field.hpp>
-#include <passes/resolve_points.hpp>
 #include <passes/search_shaders.hpp>
-#include <passes/stencil_pipelines.hpp>
 #include <passes/world_queries.hpp>
 
 #include <array>
 #include <optional>
 
 namespace nearfield::render {
-
-/// The passes of the raster technique with their pipelines.
-class RasterPipelines {
-public:
-    RasterPipelines(const gpu::Device& device, const graph::ComputeLayout& layout);
-
-private:
-    // Render passes that pipelines are made for; compatible with those that graphs make.
-    gpu::Owned<VkRenderPass> stencil_render_pass_;
-    gpu::Owned<VkRenderPass> distance_render_pass_;
-    gpu::Owned<VkRenderPass> white_render_pass_;
-    gpu::Owned<VkRenderPass> signed_feature_render_pass_;
-    gpu::Owned<VkRenderPass> gradient_render_pass_;
-    gpu::Owned<VkPipelineLayout> draw_layout_;
-    passes::StencilPipelines stencil_;
-    passes::IntersectionStrategies strategies_;
-
-public:
-    passes::Fill fill;
-    passes::ColorFill color_fill;
-    passes::ConeMesh cone_mesh;
-    passes::FeatureBit feature_bit;
-    passes::Gradient gradient;
-    passes::EarlyOut early_out;
-    passes::Intersect intersect;
-    passes::ResolvePoints resolve_points;
-    passes::ResolveField resolve_field;
-    passes::Collect collect;
-};
 
 /// The passes of resident outputs, with their pipelines.
 struct ExportPipelines {
@@ -80,8 +39,6 @@ public:
     void make(const DeviceTechniques& techniques) const;
 
     [[nodiscard]] const ExportPipelines& exports() const { return made(exports_); }
-    /// Raster.
-    [[nodiscard]] const RasterPipelines& raster() const { return made(raster_); }
     /// Compute, as are those that follow.
     [[nodiscard]] const passes::Masks& masks() const { return made(masks_); }
     [[nodiscard]] const passes::Fields& fields() const { return made(fields_); }
@@ -112,7 +69,6 @@ private:
     const graph::ComputeLayout* layout_;
     mutable double milliseconds_ = 0.0;
     mutable std::optional<ExportPipelines> exports_;
-    mutable std::optional<RasterPipelines> raster_;
     mutable std::optional<passes::Masks> masks_;
     mutable std::optional<passes::Fields> fields_;
     mutable std::optional<passes::PairPoses> pair_poses_;

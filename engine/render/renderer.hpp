@@ -2,11 +2,11 @@
 
 #include <engine/base/unique_numbers.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/plan/tile_batch.hpp>
 #include <engine/render/batch_resources.hpp>
-#include <engine/render/compiled_graph.hpp>
+#include <engine/render/computed_tiles.hpp>
 #include <engine/render/pair_search_buffers.hpp>
 #include <engine/render/pipeline_set.hpp>
+#include <engine/render/tile_work.hpp>
 #include <engine/render/world_query_buffers.hpp>
 #include <nearfield/context.hpp>
 #include <nearfield/result.hpp>
@@ -23,25 +23,29 @@
 
 namespace nearfield::render {
 
-/// Number of samples of intersections, and of points of searches, to reserve memory for: a likely
-/// number, since what exceeds it can be submitted again; or all.
-enum class SampleRoom { likely, all };
+/// Makes a technique on a device, of which the layout is, and at once its pipelines.
+using MakeTileTechnique = std::unique_ptr<TileTechnique> (*)(const gpu::Device& device,
+                                                             const graph::ComputeLayout& layout,
+                                                             bool makes_pipelines);
 
-/// Takes the tile batches of a batch to the device in one submission, or into a command buffer of
-/// the host. Owns what all batches in flight share: pipelines, and compiled graphs with their
-/// images, which batches and tile batches use one after the other (the graph's barriers order them,
-/// in one command buffer and from one submission to the next on the same queue). Everything
-/// specific to a batch is in its BatchResources. Compiled graphs only grow; the steady state
-/// allocates nothing and creates nothing.
+/// Takes a batch to the device in one submission, or into a command buffer of the host. Owns what
+/// all batches in flight share: pipelines, and by technique what tile batches need (TileTechnique).
+/// Everything specific to a batch is in its BatchResources. The steady state allocates nothing and
+/// creates nothing.
 class Renderer {
 public:
     /// Makes all pipelines of the settings' techniques and none later, or each when a batch is
-    /// prepared, or memory made for pairs, that needs it.
-    Renderer(const gpu::Device& device, const Settings& settings);
+    /// prepared, or memory made for pairs, that needs it. `make_drawn`: makes the technique that
+    /// draws; null: there is none.
+    Renderer(const gpu::Device& device, const Settings& settings, MakeTileTechnique make_drawn);
 
     /// The name of the format that gradients are blended in.
     [[nodiscard]] const char* gradient_format() const;
 
+    /// Plans a query about points of technique raster, which there is.
+    void plan_drawn_points(plan::CurrentQuery& current, AnyResult& result) {
+        drawn_->plan_points(current, result);
+    }
     /// Resources for a batch of this renderer, which must outlive them.
     [[nodiscard]] std::unique_ptr<BatchResources> make_resources();
     /// Memory for searches for all pairs, likewise.
@@ -64,16 +68,24 @@ public:
         last_question_ = question;
     }
     /// The time that making pipelines has taken, which is in no other time.
-    [[nodiscard]] double pipeline_milliseconds() const { return passes_.milliseconds(); }
+    [[nodiscard]] double pipeline_milliseconds() const {
+        return passes_.milliseconds() + (drawn_ == nullptr ? 0.0 : drawn_->pipeline_milliseconds());
+    }
+    /// How many records of one query that stay on the device there is room for, if there can be as
+    /// many: more than any query before has had.
+    [[nodiscard]] std::uint32_t expected_records() const { return expected_records_; }
+    void note_records(std::uint32_t count) {
+        expected_records_ = std::max(expected_records_, count + count / 8);
+    }
+
     /// Differs from that of every other renderer.
     [[nodiscard]] std::uint32_t number() const { return number_; }
 
-    /// Uploads tile batches and their resident outputs, and reserves memory for their results; adds
-    /// to the time of planning. Both have to stay unchanged, and `slot` untouched, until the device
-    /// is done.
-    void prepare(std::span<const plan::TileBatch> tile_batches,
-                 const plan::ResidentOutputs& resident, plan::TileSize extent, SampleRoom room,
-                 BatchResources& slot, Timings& timings);
+    /// Uploads the tile batches of a slot and their resident outputs, and reserves memory for their
+    /// results; adds to the time of planning. All of it has to stay unchanged, and `slot`
+    /// untouched, until the device is done.
+    void prepare(const plan::ResidentOutputs& resident, SampleRoom room, BatchResources& slot,
+                 Timings& timings);
     /// Uploads the pairs that are searched, if any, after prepare(); nothing of them is needed
     /// afterwards. `shapes`: those that they name.
     void prepare_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
@@ -92,36 +104,24 @@ public:
     /// the others. Returns false if there are none.
     [[nodiscard]] bool submit_those_without_room(BatchResources& slot, Timings& timings);
 
-    /// How many records of one query that stay on the device there is room for, if there can be as
-    /// many: more than any query before has had.
-    [[nodiscard]] std::uint32_t expected_records() const { return expected_records_; }
-    void note_records(std::uint32_t count) {
-        expected_records_ = std::max(expected_records_, count + count / 8);
-    }
-
     /// Drops the compiled graphs, except those of batches in flight, until the next batch.
     void trim() noexcept;
-    /// Destroys the views of an image of the host, which no batch on the device may write.
 
     /// Prints the graphs of the last batch, one after the other, each with a title, or that of a
     /// later search for pairs or of other questions about a world; empty before the first.
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
-    [[nodiscard]] std::shared_ptr<CompiledGraph> graph_for(GraphKey needs, plan::TileSize extent);
-    [[nodiscard]] std::uint32_t sample_capacity(const plan::TileBatch& batch,
-                                                SampleRoom room) const;
-    void record_tile_batches(BatchResources& slot, VkCommandBuffer commands);
+    void record(BatchResources& slot, VkCommandBuffer commands);
     void record_search(const GivenSearch& search, BatchResources& slot, VkCommandBuffer commands);
-    void record_exports(BatchResources& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;
     std::uint32_t number_ = next_owner_number();
     bool timestamps_;
     graph::ComputeLayout layout_;
     PipelineSet passes_;
-    std::vector<std::shared_ptr<CompiledGraph>> graphs_;
-    std::shared_ptr<const CompiledGraph> last_graph_;
+    std::unique_ptr<TileTechnique> drawn_;  // null: there is none
+    ComputeTechnique computed_;
     bool last_had_fields_ = false;  // among the resident outputs of the last batch
     bool last_had_records_ = false;
     bool last_had_samples_ = false;
@@ -133,10 +133,9 @@ private:
     };
     std::optional<Pairs> last_pairs_;  // since the last batch, as is the next
     std::optional<plan::WorldQuestion> last_question_;
-    PairCounts max_counts_{};        // by a search of a batch, reserved for the next
-    std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
     static constexpr std::uint32_t min_records = 16384;
     std::uint32_t expected_records_ = min_records;
+    PairCounts max_counts_{};  // by a search of a batch, reserved for the next
 };
 
 }  // namespace nearfield::render

@@ -60,7 +60,7 @@ std::uint32_t blocks_of(const PlannedQuery& searched, double max_points) {
 }  // namespace
 
 void ResidentOutputsBuilder::build(const plan::Plan& plan,
-                                   std::span<const plan::TileBatch> tile_batches,
+                                   std::span<const plan::ComputeBatch> tile_batches,
                                    std::span<const AnyResult> results, std::uint32_t room,
                                    ResidentOutputs& resident) {
     resident.clear();
@@ -84,10 +84,10 @@ void ResidentOutputsBuilder::build(const plan::Plan& plan,
 }
 
 void ResidentOutputsBuilder::find_field_parts(const plan::Plan& plan,
-                                              std::span<const plan::TileBatch> tile_batches) {
+                                              std::span<const plan::ComputeBatch> tile_batches) {
     parts_.clear();
     for (std::uint32_t number = 0; number < tile_batches.size(); ++number) {
-        const plan::TileBatch& batch = tile_batches[number];
+        const plan::ComputeBatch& batch = tile_batches[number];
         if (!batch.resident) {
             continue;
         }

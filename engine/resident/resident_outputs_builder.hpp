@@ -1,8 +1,8 @@
 #pragma once
 
+#include <engine/plan/compute_batch_builder.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/resident_outputs.hpp>
-#include <engine/plan/tile_batch.hpp>
 #include <engine/resident/resident_samples_builder.hpp>
 #include <nearfield/result.hpp>
 
@@ -19,12 +19,12 @@ class ResidentOutputsBuilder {
 public:
     /// `results` state which queries were rejected. `room`: for so many records of a query, unless
     /// there cannot be as many, or they go to a buffer of the host's.
-    void build(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches,
+    void build(const plan::Plan& plan, std::span<const plan::ComputeBatch> tile_batches,
                std::span<const AnyResult> results, std::uint32_t room,
                plan::ResidentOutputs& resident);
 
 private:
-    void find_field_parts(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches);
+    void find_field_parts(const plan::Plan& plan, std::span<const plan::ComputeBatch> tile_batches);
     void add_field(const plan::PlannedQuery& planned, std::uint32_t query,
                    const DistanceFieldResult& result, plan::ResidentOutputs& resident);
     void add_records(const plan::Plan& plan, std::uint32_t query, std::uint32_t room,

@@ -49,8 +49,9 @@ void place(const plan::Tile& tile, const Vector& origin, SampleTileData& data) {
 }  // namespace
 
 void ResidentSamplesBuilder::add(const plan::Plan& plan,
-                                 std::span<const plan::TileBatch> tile_batches, std::uint32_t query,
-                                 const IntersectionResult& result, ResidentOutputs& resident) {
+                                 std::span<const plan::ComputeBatch> tile_batches,
+                                 std::uint32_t query, const IntersectionResult& result,
+                                 ResidentOutputs& resident) {
     if (!is_found_) {
         find_tiles(plan, tile_batches);
     }
@@ -73,7 +74,7 @@ void ResidentSamplesBuilder::add(const plan::Plan& plan,
 }
 
 void ResidentSamplesBuilder::find_tiles(const plan::Plan& plan,
-                                        std::span<const plan::TileBatch> tile_batches) {
+                                        std::span<const plan::ComputeBatch> tile_batches) {
     is_found_ = true;
     tiles_.clear();
     for (std::uint32_t number = 0; number < tile_batches.size(); ++number) {
@@ -84,9 +85,9 @@ void ResidentSamplesBuilder::find_tiles(const plan::Plan& plan,
               [](const FoundTile& i, const FoundTile& j) { return i.index < j.index; });
 }
 
-void ResidentSamplesBuilder::find_masks(const plan::Plan& plan, const plan::TileBatch& batch,
+void ResidentSamplesBuilder::find_masks(const plan::Plan& plan, const plan::ComputeBatch& batch,
                                         std::uint32_t number) {
-    const plan::ComputeWork& work = batch.compute;
+    const plan::ComputeWork& work = batch.work;
     for (const plan::OverlapData& overlap : work.overlaps) {
         const std::uint32_t index = batch.tile_index[overlap.tile];
         if (plan.queries[plan.tiles[index].query].on_device) {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <engine/plan/compute_batch_builder.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/resident_outputs.hpp>
-#include <engine/plan/tile_batch.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -19,7 +19,7 @@ public:
     void begin() { is_found_ = false; }
     /// Adds a query to the resident outputs. `tile_batches` are the same for all queries of a
     /// batch.
-    void add(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches,
+    void add(const plan::Plan& plan, std::span<const plan::ComputeBatch> tile_batches,
              std::uint32_t query, const IntersectionResult& result,
              plan::ResidentOutputs& resident);
 
@@ -30,8 +30,8 @@ private:
         plan::SampleTileData data;
     };
 
-    void find_tiles(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches);
-    void find_masks(const plan::Plan& plan, const plan::TileBatch& batch, std::uint32_t number);
+    void find_tiles(const plan::Plan& plan, std::span<const plan::ComputeBatch> tile_batches);
+    void find_masks(const plan::Plan& plan, const plan::ComputeBatch& batch, std::uint32_t number);
     void add_tiles(const plan::Plan& plan, const IntersectionQuery& asked,
                    plan::ResidentOutputs& resident);
     void place_blocks(const plan::Plan& plan, std::span<FoundTile> tiles,

@@ -3,7 +3,8 @@
 // a large shape in many queries.
 
 #include <engine/plan/planner.hpp>
-#include <engine/plan/tile_batch.hpp>
+#include <engine/raster/drawn_batch_builder.hpp>
+#include <engine/raster/point_planner.hpp>
 
 #include <tests/support/checked_queries.hpp>
 #include <tests/support/outlines.hpp>
@@ -15,6 +16,7 @@
 #include <deque>
 #include <filesystem>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -118,9 +120,14 @@ void measure(const Scene& scene, int frames) {
     plan::PlanLimits limits;
     limits.memory = std::uint64_t{8} << 30U;
     plan::Planner planner(limits);
-    plan::TileBatchBuilder builder(limits.subpixel);
+    raster::PointPlanner points;
+    const auto plan_drawn = [&](plan::CurrentQuery& current, AnyResult& result) {
+        points.plan(current, result);
+    };
+    raster::DrawnBatchBuilder builder(limits.subpixel);
     plan::Plan plan;
-    plan::TileBatch batch;
+    std::vector<raster::DrawnBatch> batches;
+    std::uint32_t tile_batches = 0;
     std::vector<plan::QueryShapes> shapes;
     std::vector<AnyResult> results;
     double planned = HUGE_VAL;
@@ -134,17 +141,16 @@ void measure(const Scene& scene, int frames) {
                 return shape.index < scene.shapes.size() ? &scene.shapes[shape.index] : nullptr;
             },
             shapes);
-        test::plan_all(test::checked_queries(scene.queries, shapes, limits, results), planner, plan,
-                       results);
+        test::plan_all(test::checked_queries(scene.queries, shapes, limits, results), plan_drawn,
+                       planner, plan, results);
         const double middle = processor_milliseconds();
-        builder.begin_batch();
         vertices = 0;
-        for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
-            builder.build(plan, number, batch);
-            for (const geometry::Mesh& mesh : batch.raster.meshes.meshes()) {
+        tile_batches = builder.build(plan, batches);
+        for (const raster::DrawnBatch& batch : std::span(batches).first(tile_batches)) {
+            for (const geometry::Mesh& mesh : batch.meshes.meshes()) {
                 vertices += mesh.size();
             }
-            for (const std::vector<plan::TileVertex>& mesh : batch.raster.meshes.tile_meshes()) {
+            for (const std::vector<raster::TileVertex>& mesh : batch.meshes.tile_meshes()) {
                 vertices += mesh.size();
             }
         }
@@ -152,7 +158,7 @@ void measure(const Scene& scene, int frames) {
         built = std::min(built, processor_milliseconds() - middle);
     }
     std::printf("| %s | %zu | %u | %zu | %.1f | %.1f |\n", scene.name.c_str(), plan.tiles.size(),
-                plan.tile_batches, vertices, planned, built);
+                tile_batches, vertices, planned, built);
     std::fflush(stdout);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <tests/support/folder.hpp>
+#include <tests/support/techniques.hpp>
 
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ protected:
 
     /// "query TYPE A B --technique TECHNIQUE" with the unit square twice.
     [[nodiscard]] Arguments squares(const std::string& type,
-                                    const std::string& technique = "raster") const;
+                                    const std::string& technique = has_raster ? "raster"
+                                                                              : "compute") const;
 
     /// The JSON of a query. Unless the exit status is 0 and the standard output is a single JSON
     /// value, the test fails and the result is null.

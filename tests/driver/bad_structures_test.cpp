@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/mock_driver.hpp>
+#include <tests/support/techniques.hpp>
 
 #include <string>
 #include <vector>
@@ -127,8 +128,7 @@ TEST_F(BadStructures, QueriesWithNumbersThatAreNoEnumerators) {
     const auto try_query = [&](auto query, const auto& bend, const std::string& words) {
         query.a = query.b = here;
         query.tolerance = 0.1;
-        for (const Technique technique :
-             {Technique::automatic, Technique::raster, Technique::compute, Technique::cpu}) {
+        for (const Technique technique : any_technique) {
             query.technique = technique;
             bend(query);
             Batch batch;

@@ -108,7 +108,7 @@ TEST(ComputeFamily, IsNeverGivenTheRasterByAutomatic) {
         query.gradient = GradientMethod::blended;
         return on.answer(query);
     };
-    {
+    if (has_raster) {
         OnFamily drawing(0);
         EXPECT_EQ(blended(drawing).technique, Technique::raster);
     }

@@ -15,8 +15,6 @@ using test_support::HostAllocator;
 using test_support::MockDriver;
 using test_support::name_of;
 
-constexpr Technique both_techniques[] = {Technique::raster, Technique::compute};
-
 /// A world whose device memory comes from the host.
 struct Hosted {
     explicit Hosted(Technique technique) : world(technique), allocator(world.driver().host()) {
@@ -44,7 +42,7 @@ struct Hosted {
 };
 
 TEST(HostDeviceMemory, IsAllThereIsAndGoesBack) {
-    for (const Technique technique : both_techniques) {
+    for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         const std::vector<double> expected = World::undisturbed(technique);
         Hosted hosted(technique);
@@ -61,7 +59,7 @@ TEST(HostDeviceMemory, IsAllThereIsAndGoesBack) {
 }
 
 TEST(HostDeviceMemory, IsCountedAndTrimmed) {
-    Hosted hosted(Technique::raster);
+    Hosted hosted(device_techniques.front());
     hosted.world.take_all_before(World::Step::submit_last);
     Context& context = hosted.world.context();
     const std::uint64_t in_use = hosted.allocator.bytes();
@@ -209,7 +207,7 @@ bool try_mistake(Technique technique, const Mistake& mistake, World::Step step, 
 }
 
 TEST(HostDeviceMemory, ThatIsRefusedOrContradictsTheRequestIsNamedAndLeaksNothing) {
-    for (const Technique technique : both_techniques) {
+    for (const Technique technique : device_techniques) {
         const std::vector<double> expected = World::undisturbed(technique);
         // The first mistake is made in every answer of a step, the others in the first few.
         std::size_t answers = SIZE_MAX;

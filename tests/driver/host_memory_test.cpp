@@ -74,7 +74,7 @@ void try_without_memory(Technique technique, World::Step step, std::uint64_t suc
 }
 
 TEST(HostMemory, ThatRunsOutIsSaidAndLeavesAContextThatAnswers) {
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
+    for (const Technique technique : device_techniques) {
         const std::vector<double> expected = World::undisturbed(technique);
         for (const World::Step step : World::steps) {
             const std::uint64_t count = allocations_of(technique, step);
@@ -117,7 +117,7 @@ TEST(HostMemory, ThatRunsOutDoesNotSpoilWhatIsKeptForTheNextPairs) {
 
 /// Without host memory, a context can still report that and the loss of its device.
 TEST(HostMemory, IsNotNeededToSayWhatIsWrong) {
-    World world(Technique::raster);
+    World world(device_techniques.front());
     world.take_all_before(World::Step::submit_first);
     Results results;
     const Batch batch = world.batch(8);

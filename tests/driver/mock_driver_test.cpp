@@ -9,10 +9,8 @@ namespace {
 
 using test_support::MockDriver;
 
-constexpr Technique techniques[] = {Technique::raster, Technique::compute};
-
 TEST(MockDriver, HasNothingToComplainOfALifeWithoutFailures) {
-    for (const Technique technique : techniques) {
+    for (const Technique technique : device_techniques) {
         World world(technique);
         for (const World::Step step : World::steps) {
             SCOPED_TRACE(to_string(step));
@@ -66,7 +64,7 @@ TEST(MockDriver, ComplainsOfEveryCallWithoutTheHostsAllocator) {
 
 /// The batches of a context share images, which are recreated for larger batches.
 TEST(MockDriver, FindsAllThatWasRecordedThereThoughLaterBatchesAreLarger) {
-    for (const Technique technique : techniques) {
+    for (const Technique technique : device_techniques) {
         World world(technique);
         world.take_all_before(World::Step::submit_first);
         Context& context = world.context();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tests/support/mock_driver.hpp>
 #include <tests/support/polygons.hpp>
+#include <tests/support/techniques.hpp>
 
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ constexpr int cases = 6;
 /// Every kind of query of two shapes, by each technique.
 Batch every_query(const Instance& a, const Instance& b, double tolerance) {
     Batch batch;
-    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+    for (const Technique technique : every_technique) {
         batch.add(PenetrationQuery{a, b, tolerance, PenetrationPoints::boundary, false, technique});
         batch.add(PenetrationQuery{a, b, tolerance, PenetrationPoints::vertices, false, technique});
         batch.add(ContactQuery{a, b, tolerance, tolerance, {}, false, technique});

@@ -54,10 +54,8 @@ private:
     Results results_;
 };
 
-constexpr Technique both[] = {Technique::raster, Technique::compute};
-
 TEST(Resubmission, GivesSamplesThatFoundNoneRoomAndTheNextBatchAtOnce) {
-    for (const Technique technique : both) {
+    for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         Crowded crowded(technique);
         EXPECT_EQ(crowded.driver().submissions().size(), 1U);
@@ -96,7 +94,7 @@ void try_error(Technique technique, std::string_view call, std::size_t successes
 }
 
 TEST(Resubmission, ThatFailsIsNamedLeaksNothingAndLeavesAContextThatAnswers) {
-    for (const Technique technique : both) {
+    for (const Technique technique : device_techniques) {
         std::map<std::string_view, std::size_t> count;
         for (const std::string_view call : calls_of_collecting(technique)) {
             for (const VkResult error : errors_of(call)) {

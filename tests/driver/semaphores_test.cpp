@@ -59,7 +59,7 @@ protected:
         return world_.context().collect(*ticket, results);
     }
 
-    World world_{Technique::raster};
+    World world_{device_techniques.front()};
 };
 
 TEST_P(Semaphores, ReachTheQueueWithTheirValuesAndStages) {

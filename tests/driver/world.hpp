@@ -3,6 +3,7 @@
 #include <nearfield/context.hpp>
 
 #include <tests/support/mock_driver.hpp>
+#include <tests/support/techniques.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -52,7 +53,7 @@ public:
                                      Step::record_last,
                                      Step::destroy};
 
-    /// Uses this technique for queries, raster or compute, but for those whose results stay.
+    /// Uses this technique of a device for queries, but for those whose results stay.
     explicit World(Technique technique)
         : technique_(technique),
           before_(driver_.make_semaphore(true)),

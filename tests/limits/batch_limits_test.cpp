@@ -6,6 +6,7 @@
 #include <tests/query/every_query.hpp>
 #include <tests/support/polygons.hpp>
 #include <tests/support/run_on_threads.hpp>
+#include <tests/support/techniques.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -184,7 +185,7 @@ TEST(BatchLimits, CutABatchOfAllQueriesAnywhere) {
 TEST(BatchLimits, CutEntangledShapesInsideEachStage) {
     Pair pair(Context::create_headless(), nested(60), nested(60));
     const Instance at = pair.a();
-    for (const Technique technique : {Technique::cpu, Technique::compute, Technique::raster}) {
+    for (const Technique technique : every_technique) {
         SCOPED_TRACE(to_string(technique));
         Batch batch;
         batch.add(ContactQuery{

@@ -360,7 +360,7 @@ TEST_F(ComputeFields, MasksCountTowardsTheMemoryLimit) {
 
 TEST_F(ComputeFields, TooFarAwayIsRefusedByEveryTechniqueBeforeTheWork) {
     const PlacedShape shape(context(), regular(5), {});
-    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+    for (const Technique technique : every_technique) {
         DistanceFieldQuery query;
         query.b = shape.instance();
         query.tolerance = 1e-3;

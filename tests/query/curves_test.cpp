@@ -96,7 +96,7 @@ TEST_F(Curves, FieldOfACircleIsWithinItsBoundOfTheAnalyticAnswer) {
     // With the minimum number of sub-pixel bits, a raster needs three quarters of the tolerance
     // plus a margin for rounding, which leaves less than a quarter for the rings (error budget).
     const bool coarse = sub_pixel_bits(host_device()) == 4;
-    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+    for (const Technique technique : every_technique) {
         for (const double share : {0.05, 0.248, max_deviation}) {
             SCOPED_TRACE(std::string(to_string(technique)) + " " + std::to_string(share));
             DistanceFieldQuery query;

@@ -18,7 +18,6 @@ struct Deviations {
 };
 
 constexpr double d = 0.2;
-constexpr Technique techniques[] = {Technique::raster, Technique::compute, Technique::cpu};
 /// Rounding of an answer in double precision.
 constexpr double rounding = 1e-12;
 /// Off by what the polygons for the offset circles leave open.
@@ -75,7 +74,7 @@ constexpr double gap = 0.5;
 
 TEST_F(DeviationBounds, DistancesAreOffByBothDeviationsAndTheBoundSaysSo) {
     for_each_pair(left, right, false, [&](const Deviations& of) {
-        for (const Technique technique : techniques) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             const SeparationResult separation = ask(SeparationQuery{a_, b_, d}, technique);
             EXPECT_NEAR(separation.distance, gap + of.a + of.b, slack);
@@ -92,7 +91,7 @@ TEST_F(DeviationBounds, DistancesAreOffByBothDeviationsAndTheBoundSaysSo) {
 TEST_F(DeviationBounds, OfShapesThatIntersectTheBoundIsTheSame) {
     const Circle near{{0.0, 0.5}, 1.5};
     for_each_pair(near, right, false, [&](const Deviations& of) {
-        for (const Technique technique : techniques) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             EXPECT_NEAR(ask(SeparationQuery{a_, b_, d}, technique).error_bound, of.a + of.b,
                         rounding);
@@ -161,7 +160,7 @@ TEST_F(DeviationBounds, PenetrationIsOffByBothDeviationsAndTheBoundSaysSo) {
     const Circle small{{1.0, 0.5}, 0.7};  // its deepest point is 1 - 0.7 from the centre of B
     constexpr double depth = 2.0 - 0.3;
     for_each_pair(small, right, false, [&](const Deviations& of) {
-        for (const Technique technique : techniques) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             PenetrationQuery query{a_, b_, d, PenetrationPoints::vertices};
             PenetrationResult result = ask(query, technique);
@@ -179,7 +178,7 @@ TEST_F(DeviationBounds, PenetrationIsOffByBothDeviationsAndTheBoundSaysSo) {
 
 TEST_F(DeviationBounds, ContactsOfTheCirclesHaveARecordWithinTheBound) {
     for_each_pair(left, right, false, [&](const Deviations& of) {
-        for (const Technique technique : techniques) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             ContactQuery query{a_, b_, d};
             const double bound = d * (std::numbers::sqrt2 / 2.0 + 1.0 / 1024.0) + of.a + of.b;
@@ -206,7 +205,7 @@ TEST_F(DeviationBounds, FieldsAreOffByTheDeviationOfBAlone) {
         if (of.b > 0.24 * d) {
             return;  // more than the coarsest raster allows a field
         }
-        for (const Technique technique : techniques) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             DistanceFieldQuery query{{}, b_, d, Rectangle{{0.0, -2.0}, {4.5, 3.0}}};
             query.features = true;

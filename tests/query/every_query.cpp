@@ -1,15 +1,14 @@
 #include <tests/query/every_query.hpp>
+#include <tests/support/techniques.hpp>
 
 namespace nearfield::test {
 namespace {
 
-constexpr Technique by_device[] = {Technique::raster, Technique::compute};
-constexpr Technique all_techniques[] = {Technique::raster, Technique::compute, Technique::cpu};
 constexpr Vector2 field_points[] = {{0.1, 0.2}, {-0.3, 0.4}};
 
 void add_points(Batch& batch, const Instance& a, const Instance& b, bool recordable) {
     const Instance apart{b.shape, {{3.0, b.pose.translation.y}, b.pose.angle}};
-    for (const Technique technique : all_techniques) {
+    for (const Technique technique : every_technique) {
         for (const PenetrationPoints points :
              {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
             batch.add(PenetrationQuery{a, b, 0.05, points, false, technique});
@@ -32,18 +31,15 @@ void add_intersections(Batch& batch, const Instance& a, const Instance& b) {
     for (const IntersectionKind kind :
          {IntersectionKind::volume_volume, IntersectionKind::boundary_volume,
           IntersectionKind::boundary_boundary}) {
-        for (const Technique technique : all_techniques) {
+        for (const Technique technique : every_technique) {
             batch.add(IntersectionQuery{a, b, 0.05, kind, false, IntersectionStrategy::stencil,
                                         technique});
-        }
-        for (const IntersectionStrategy strategy :
-             {IntersectionStrategy::blend, IntersectionStrategy::depth}) {
-            batch.add(IntersectionQuery{a, b, 0.05, kind, false, strategy, Technique::raster});
         }
     }
 }
 
-void add_fields(Batch& batch, const Instance& b) {
+/// With all that a field can state.
+DistanceFieldQuery every_field(const Instance& b) {
     DistanceFieldQuery field;
     field.b = b;
     field.tolerance = 0.1;
@@ -51,7 +47,12 @@ void add_fields(Batch& batch, const Instance& b) {
     field.features = true;
     field.gradients = true;
     field.points = field_points;
-    for (const Technique technique : all_techniques) {
+    return field;
+}
+
+void add_fields(Batch& batch, const Instance& b) {
+    DistanceFieldQuery field = every_field(b);
+    for (const Technique technique : every_technique) {
         field.technique = technique;
         for (const GradientMethod gradient :
              {GradientMethod::analytic, GradientMethod::central_differences}) {
@@ -59,20 +60,33 @@ void add_fields(Batch& batch, const Instance& b) {
             batch.add(field);
         }
     }
-    field.technique = Technique::raster;
-    field.gradient = GradientMethod::blended;
-    batch.add(field);
-    for (const SignEncoding sign : {SignEncoding::color, SignEncoding::feature_bit}) {
-        field.sign = sign;
-        batch.add(field);
-    }
-    for (const Technique technique : by_device) {
+    for (const Technique technique : device_techniques) {
         DistanceFieldQuery values;
         values.b = b;
         values.tolerance = 0.1;
         values.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
         values.technique = technique;
         batch.add(values);
+    }
+}
+
+/// What only technique raster answers in several ways.
+void add_drawn(Batch& batch, const Instance& a, const Instance& b) {
+    for (const IntersectionKind kind :
+         {IntersectionKind::volume_volume, IntersectionKind::boundary_volume,
+          IntersectionKind::boundary_boundary}) {
+        for (const IntersectionStrategy strategy :
+             {IntersectionStrategy::blend, IntersectionStrategy::depth}) {
+            batch.add(IntersectionQuery{a, b, 0.05, kind, false, strategy, Technique::raster});
+        }
+    }
+    DistanceFieldQuery field = every_field(b);
+    field.technique = Technique::raster;
+    field.gradient = GradientMethod::blended;
+    for (const SignEncoding sign :
+         {SignEncoding::stencil, SignEncoding::color, SignEncoding::feature_bit}) {
+        field.sign = sign;
+        batch.add(field);
     }
 }
 
@@ -85,6 +99,9 @@ Batch every_query(ShapeHandle a, ShapeHandle b, int number, bool recordable) {
     add_points(batch, here, there, recordable);
     add_intersections(batch, here, there);
     add_fields(batch, there);
+    if (has_raster) {
+        add_drawn(batch, here, there);
+    }
     return batch;
 }
 

@@ -50,7 +50,7 @@ protected:
         // of two apart.
         const double of_an_edge = 0.1 / (tolerance * std::numbers::sqrt2);
         const double edges_inside = low > -0.05 ? 2.0 : 1.0;
-        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             query.technique = technique;
             const PenetrationResult result = run_alone(context(), query);

@@ -114,7 +114,7 @@ AnyField::AnyField(Context& context, Random& random)
 
 DistanceFieldQuery AnyField::query() const {
     DistanceFieldQuery query;
-    query.technique = Technique::raster;
+    query.technique = device_techniques.front();
     query.b = shape_.instance();
     query.tolerance = tolerance_;
     query.rectangle = rectangle_;

@@ -206,8 +206,7 @@ TEST_F(Field, HoldsBesideLongEdges) {
                                      .tolerance = d,
                                      .rectangle = Rectangle{{p.x - 40.0 * d, p.y - 30.0 * d},
                                                             {p.x + 50.0 * d, p.y + 60.0 * d}}};
-            for (const Technique technique :
-                 {Technique::raster, Technique::compute, Technique::cpu}) {
+            for (const Technique technique : every_technique) {
                 SCOPED_TRACE(to_text(rings) + " by " + to_string(technique));
                 query.technique = technique;
                 query.features = false;
@@ -235,8 +234,7 @@ TEST_F(Field, GradientsAtCornersPointOut) {
                                      .rectangle = Rectangle{{-1.0, -1.0}, {4.0, 4.0}},
                                      .gradients = true};
             query.points = ring;
-            for (const Technique technique :
-                 {Technique::raster, Technique::compute, Technique::cpu}) {
+            for (const Technique technique : every_technique) {
                 query.technique = technique;
                 const DistanceFieldResult result = run_alone(context(), query);
                 ASSERT_EQ(result.points.size(), ring.size());

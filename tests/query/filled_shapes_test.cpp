@@ -18,7 +18,6 @@ using oracle::Measured;
 using oracle::ShapeOracle;
 
 constexpr std::uint64_t seed = 20'000;
-constexpr Technique techniques[] = {Technique::raster, Technique::compute, Technique::cpu};
 
 double gap_between(const Edge& a, const Edge& b) {
     const ShapeOracle of_a(std::vector<Ring>{{a.from, a.to}});
@@ -145,7 +144,7 @@ TEST_F(FilledShapes, FieldsHaveNoInnerEdges) {
     std::size_t inner = 0;
     for_each_pair(36, [&](FilledPair& pair) {
         inner += pair.region->inner_edges().size();
-        for (const Technique technique : techniques) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             DistanceFieldQuery query;
             query.b = pair.filled;
@@ -170,7 +169,7 @@ TEST_F(FilledShapes, FieldsHaveNoInnerEdges) {
 TEST_F(FilledShapes, PointsAreAsDeepAsInTheRegion) {
     std::size_t records = 0;
     for_each_pair(72, [&](FilledPair& pair) {
-        for (const Technique technique : techniques) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             // Of edges that are equally near to within d/1000 a device may name any.
             const double bound = technique == Technique::cpu ? 0.0 : pair.tolerance / 1000.0;

@@ -7,7 +7,7 @@ Batch Frames::batch(int number) const {
     const Instance there{b_, {{0.7, 0.1 * number}, 0.3}};
     const Instance apart{b_, {{3.0, 0.1 * number}, 0.3}};
     Batch batch;
-    for (const Technique technique : {Technique::raster, Technique::cpu}) {
+    for (const Technique technique : {device_techniques.front(), Technique::cpu}) {
         batch.add(PenetrationQuery{here, there, 0.04, {}, false, technique});
         batch.add(ContactQuery{here, there, 0.04, 0.05, {}, false, technique});
         batch.add(SeparationQuery{here, apart, 0.04, technique});
@@ -17,7 +17,7 @@ Batch Frames::batch(int number) const {
     batch.add(drawn(IntersectionQuery{here, there, 0.04, IntersectionKind::boundary_volume}));
     batch.add(drawn(ContactQuery{here, there, 0.04, 0.05, ContactNormals::gradient}));
     DistanceFieldQuery field;
-    field.technique = Technique::raster;
+    field.technique = device_techniques.front();
     field.b = there;
     field.tolerance = 0.1;
     field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};

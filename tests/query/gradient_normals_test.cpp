@@ -8,8 +8,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr Technique techniques[] = {Technique::raster, Technique::compute, Technique::cpu};
-
 class GradientNormals : public QueryTest {
 protected:
     static ContactResult ask(const PlacedPair& placed, double contact_distance,
@@ -24,7 +22,7 @@ protected:
 
 TEST_F(GradientNormals, OnAPlateThinnerThanACellVanishAndAreOneOfSeveral) {
     // B's field falls towards the plate from both sides alike: it is its own medial axis.
-    for (const Technique technique : techniques) {
+    for (const Technique technique : every_technique) {
         SCOPED_TRACE(to_string(technique));
         const PlacedPair placed(context(),
                                 {{"A", rectangle({-1, 0.05}, {1, 2})},
@@ -62,7 +60,7 @@ TEST_F(GradientNormals, NearARoundShapeAreRadial) {
     constexpr double tolerance = 0.01;
     const double turned = 1.06 * std::acos(1.0 - tolerance / 4.0);
     const Rings disc = regular(720);
-    for (const Technique technique : techniques) {
+    for (const Technique technique : every_technique) {
         for_each_case(700, 3, [&](Random& random) {
             SCOPED_TRACE(to_string(technique));
             const double size = random.between(0.5, 2.0);

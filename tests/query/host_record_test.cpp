@@ -167,7 +167,7 @@ TEST_F(Recorded, QueriesThatTakeASecondSubmissionAreRefusedAlone) {
     const Instance here{a_, {}};
     const Instance there{b_, {{0.7, 0.1}, 0.3}};
     Batch batch;
-    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+    for (const Technique technique : every_technique) {
         batch.add(
             ContactQuery{here, there, 0.05, 0.05, ContactNormals::gradient, false, technique});
     }
@@ -202,7 +202,7 @@ TEST_F(Recorded, SamplesHaveRoomHoweverMany) {
     make(1);
     HostFrames host(host_device(), 1);
     Batch dense;
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
+    for (const Technique technique : device_techniques) {
         // Most of the box is in both shapes, which exceeds the capacity of a first submission.
         dense.add(IntersectionQuery{{a_, {}},
                                     {a_, {}},

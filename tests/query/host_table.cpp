@@ -40,7 +40,7 @@ Batch Scene::small(double tolerance) const {
     Batch batch;
     IntersectionQuery query{{a, {}}, {b, {}}, tolerance};
     query.summary_only = true;
-    query.technique = Technique::raster;
+    query.technique = device_techniques.front();
     batch.add(query);
     return batch;
 }

@@ -22,7 +22,7 @@ TEST_F(IntersectionBox, IsThatOfTheSamplesWithThemAndWithout) {
     for_each_case(910, 8, [&](Random& random) {
         const Pair pair = any_pair(random);
         SCOPED_TRACE(describe(pair));
-        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+        for (const Technique technique : every_technique) {
             const PlacedPair placed(context(), pair, technique);
             for (const auto kind :
                  {IntersectionKind::volume_volume, IntersectionKind::boundary_volume,

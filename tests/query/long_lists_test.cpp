@@ -26,7 +26,7 @@ Rings finely_divided_square(int edges_of_a_side) {
 // The sides are straight within every tolerance, so each becomes one edge of a tile, or few.
 TEST_F(LongLists, OfEdgesThatOneReplaces) {
     Random random(71);
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
+    for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         Pair pair;
         pair.a = {"star", scaled_and_moved(star(random, 30, 0.5), 0.1, {0.85, -0.88})};

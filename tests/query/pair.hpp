@@ -4,6 +4,7 @@
 
 #include <tests/oracle/shape_oracle.hpp>
 #include <tests/support/polygons.hpp>
+#include <tests/support/techniques.hpp>
 
 #include <optional>
 #include <string>
@@ -26,7 +27,7 @@ enum class Truth { no, yes, too_close_to_call };
 class PlacedPair {
 public:
     /// The queries request this technique.
-    PlacedPair(Context& context, Pair pair, Technique technique = Technique::raster);
+    PlacedPair(Context& context, Pair pair, Technique technique = device_techniques.front());
     ~PlacedPair();
     PlacedPair(const PlacedPair&) = delete;
     PlacedPair& operator=(const PlacedPair&) = delete;

@@ -70,7 +70,7 @@ TEST_F(Penetration, DoesNotOutliveItsBatch) {
 TEST_F(Penetration, OfEquallyDeepPointsTheFirstIsTheDeepest) {
     const ShapeHandle a = *context().add_shape(rectangle({0, 0}, {1, 1}));
     const ShapeHandle b = *context().add_shape(rectangle({-1, -1}, {2, 2}));
-    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+    for (const Technique technique : every_technique) {
         for (const PenetrationPoints points :
              {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
             SCOPED_TRACE(to_string(technique));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
+#include <tests/support/techniques.hpp>
 
 #include <cstdint>
 #include <string>
@@ -32,10 +33,10 @@ void for_each_case(std::uint64_t seed, int usual, const Check& check) {
 /// Settings with which no pipeline is made that a test does not need.
 [[nodiscard]] Settings on_demand(Settings settings = {});
 
-/// The query, by the raster.
+/// The query, by the raster where there is one.
 template <class Query>
 [[nodiscard]] Query drawn(Query query) {
-    query.technique = Technique::raster;
+    query.technique = device_techniques.front();
     return query;
 }
 

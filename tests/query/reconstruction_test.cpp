@@ -172,7 +172,7 @@ TEST_F(Reconstruction, HoldsInOneBatchWithEverything) {
         query.gradient = static_cast<GradientMethod>(i / 3);
         query.features = query.gradients = true;
         query.points = points;
-        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+        for (const Technique technique : every_technique) {
             query.technique = technique;
             if (technique == Technique::raster || query.gradient != GradientMethod::blended) {
                 fields.push_back(query);
@@ -305,7 +305,7 @@ TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
 /// precision adds to the bound of the cells, and as much to that of the point.
 TEST_F(Reconstruction, FarPointsAreAsExactAsTheirCells) {
     const PlacedShape shape(context(), rectangle({-1, -500}, {0, 500}), {});
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
+    for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         const auto bounds_at = [&](double away) {
             const std::array<Vector2, 1> points{{{away + 0.53, 0.02}}};

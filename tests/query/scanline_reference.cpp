@@ -3,7 +3,7 @@
 #include <engine/geometry/polygon.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/plan/planner.hpp>
-#include <engine/plan/tile_batch.hpp>
+#include <engine/raster/drawn_batch_builder.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/checked_queries.hpp>
@@ -25,7 +25,7 @@ struct Placed {
 
 /// The triangles of a tile, in its cells: those that reach it or the gap around it.
 geometry::Mesh in_tile(const plan::TileData& tile, const geometry::Mesh& all) {
-    constexpr auto gap = static_cast<float>(plan::atlas_gap);
+    constexpr auto gap = static_cast<float>(raster::atlas_gap);
     geometry::Mesh mesh;
     for (std::size_t i = 0; i + 2 < all.size(); i += 3) {
         const auto is_near = [&](const geometry::MeshVertex& vertex) {
@@ -46,12 +46,12 @@ geometry::Mesh in_tile(const plan::TileData& tile, const geometry::Mesh& all) {
 }
 
 /// The triangles that decide where a shape is in a tile.
-geometry::Mesh mesh_of(const plan::TileBatch& batch, const plan::OverlapTile& overlap,
+geometry::Mesh mesh_of(const raster::DrawnBatch& batch, const plan::OverlapTile& overlap,
                        IntersectionStrategy strategy, bool is_a) {
-    using plan::OverlapStep;
+    using raster::OverlapStep;
     const plan::TileData& tile = batch.tiles[overlap.tile];
     const auto mesh = [&](OverlapStep step) -> const geometry::Mesh& {
-        return batch.raster.meshes[plan::overlaps_of(strategy, step)];
+        return batch.meshes[raster::overlaps_of(strategy, step)];
     };
     if ((is_a ? overlap.part_a : overlap.part_b) == plan::Part::volume) {
         return in_tile(tile, mesh(is_a ? OverlapStep::parity_a : OverlapStep::parity_b));
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> scan(const support::Tile& tile, const geometry::Mesh&
     return image;
 }
 
-void scan_tile(const plan::Plan& plan, const plan::TileBatch& batch,
+void scan_tile(const plan::Plan& plan, const raster::DrawnBatch& batch,
                const plan::OverlapTile& overlap, IntersectionStrategy strategy,
                geometry::SubpixelGrid grid, std::vector<Placed>& found) {
     const plan::Tile& planned = plan.tiles[batch.tile_index[overlap.tile]];
@@ -132,15 +132,16 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     plan::Plan plan;
     std::vector<AnyResult> results;
     const std::vector<plan::QueryShapes> shapes{{&a, &b}};
-    plan_all(checked_queries(queries, shapes, limits, results), planner, plan, results);
-    plan::TileBatchBuilder builder(limits.subpixel);
-    plan::TileBatch batch;
+    plan_all(checked_queries(queries, shapes, limits, results), {}, planner, plan, results);
+    raster::DrawnBatchBuilder builder(limits.subpixel);
+    std::vector<raster::DrawnBatch> batches;
+    const std::uint32_t count = builder.build(plan, batches);
+    EXPECT_EQ(count, batches.size());
     std::vector<Placed> found;
-    for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
-        builder.build(plan, number, batch);
-        for (const plan::OverlapTile& overlap :
-             batch.raster.overlaps[static_cast<std::size_t>(query.strategy)]) {
-            scan_tile(plan, batch, overlap, query.strategy, limits.subpixel, found);
+    for (const raster::DrawnBatch& batch : batches) {
+        for (const plan::OverlapTile& drawn :
+             batch.overlaps[static_cast<std::size_t>(query.strategy)]) {
+            scan_tile(plan, batch, drawn, query.strategy, limits.subpixel, found);
         }
     }
     std::sort(found.begin(), found.end(),

@@ -21,7 +21,7 @@ Batch frame(ShapeHandle a, ShapeHandle b) {
     const Instance here{a, {{5.0, 5.0}, 0.0}};
     const Instance there{b, {{5.7, 5.1}, 0.3}};
     const Instance apart{b, {{8.5, 5.1}, 0.3}};
-    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+    for (const Technique technique : every_technique) {
         for (const PenetrationPoints points :
              {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
             batch.add(PenetrationQuery{here, there, 0.08, points, false, technique});
@@ -38,7 +38,7 @@ Batch frame(ShapeHandle a, ShapeHandle b) {
     field.features = true;
     static constexpr Vector2 points[] = {{5.1, 5.2}, {4.7, 5.4}};
     field.points = points;
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
+    for (const Technique technique : device_techniques) {
         field.technique = technique;
         batch.add(field);
         for (const IntersectionKind kind :

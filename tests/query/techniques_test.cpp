@@ -26,7 +26,7 @@ protected:
         const PlacedPair cpu(context(), pair, Technique::cpu);
         const CorpusKeeper keeper(pair, 2.0 * pair.tolerance);
         SCOPED_TRACE(describe(pair));
-        for (const Technique technique : {Technique::raster, Technique::compute}) {
+        for (const Technique technique : device_techniques) {
             SCOPED_TRACE(to_string(technique));
             const PlacedPair device(context(), pair, technique);
             check_penetrations(device, cpu);
@@ -233,7 +233,7 @@ TEST_F(Techniques, AgreeOnMorePointsThanAreLocatedAtOnce) {
     const PlacedPair cpu(context(), pair, Technique::cpu);
     const ContactResult exact = run_alone(context(), cpu.contacts(1e-3));
     EXPECT_GT(exact.points.size(), 140000U);
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
+    for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         const PlacedPair device(context(), pair, technique);
         const ContactResult found = run_alone(context(), device.contacts(1e-3));

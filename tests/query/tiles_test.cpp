@@ -68,7 +68,7 @@ protected:
 };
 
 TEST_F(Tiles, HoldWhatTheyWereMadeFor) {
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
+    for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         std::size_t records = 0;
         for (const Pair& pair : family_pairs(seed)) {

@@ -32,7 +32,7 @@ protected:
         bar_ = *context().add_shape(rectangle({-1.0, 0.4}, {depth, 0.6}));
         square_ = *context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
         const bool penetrates = depth > touching_depth;
-        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             for (const PenetrationPoints points :
                  {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
@@ -74,7 +74,7 @@ TEST_F(Touching, IsAllThatNearlyCoincidentShapesDo) {
         const Rings rings = star(random, 12, 0.5);
         const ShapeHandle shape = *context().add_shape(rings);
         const double off = random.scale(1e-12, 5e-4) * tolerance;
-        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+        for (const Technique technique : every_technique) {
             SCOPED_TRACE(to_string(technique));
             const PenetrationResult result =
                 run_alone(context(), PenetrationQuery{.a = {shape, {{off, off}, 0.0}},

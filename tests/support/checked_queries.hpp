@@ -26,12 +26,13 @@ inline std::vector<plan::CheckedQuery> checked_queries(std::span<const AnyQuery>
     return all;
 }
 
-/// Plans a batch of such queries.
-inline void plan_all(std::span<const plan::CheckedQuery> queries, plan::Planner& planner,
+/// Plans a batch of such queries. `plan_drawn`: if there are any about points of technique raster.
+inline void plan_all(std::span<const plan::CheckedQuery> queries,
+                     const plan::PlanDrawnPoints& plan_drawn, plan::Planner& planner,
                      plan::Plan& plan, std::vector<AnyResult>& results) {
     planner.begin(results.size(), plan);
     for (const plan::CheckedQuery& query : queries) {
-        planner.add(query, plan, results[query.index]);
+        planner.add(query, plan_drawn, plan, results[query.index]);
     }
     planner.finish(plan);
 }

@@ -2,6 +2,7 @@
 #include <nearfield/vulkan.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/techniques.hpp>
 
 #include <mutex>
 #include <string>
@@ -73,8 +74,8 @@ private:
         numbers_.push_back(pairs ? static_cast<double>(pairs->size()) : -1.0);
     }
     Ticket submit(int frame) {
-        const Expected<Ticket> ticket =
-            context_.submit(batch(frame, frame % 2 == 0 ? Technique::raster : Technique::compute));
+        const Expected<Ticket> ticket = context_.submit(
+            batch(frame, frame % 2 == 0 ? device_techniques.front() : Technique::compute));
         expect(ticket.error());
         return ticket.has_value() ? *ticket : Ticket{};
     }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tests/hosts/example_program.hpp>
 #include <tests/hosts/picture_file.hpp>
+#include <tests/support/techniques.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/drawing/view.hpp>
 #include <tools/simulation/nest.hpp>
@@ -130,13 +131,14 @@ TEST_F(Viewer, TheGoalOfTheRobotsCanBeDragged) {
 }
 
 TEST_F(Viewer, EachOverlayChangesThePicture) {
+    const std::string by_device = has_raster ? "--technique=raster" : "--technique=compute";
     const std::vector<std::vector<std::string>> overlays{
         {"--show=none"},
         {"--show=depths"},
         {"--show=contacts"},
-        {"--show=regions", "--technique=raster"},
-        {"--show=tiles", "--technique=raster"},
-        {"--show=samples", "--technique=raster", "--strategy=logic-op"},
+        {"--show=regions", by_device},
+        {"--show=tiles", by_device},
+        {"--show=samples", by_device, "--strategy=logic-op"},
         {"--show=none", "--field=distance"},
         {"--show=none", "--field=voronoi"},
         {"--show=none", "--field=gradient"}};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tests/query/all_numbers.hpp>
 #include <tests/support/fake_loader.hpp>
+#include <tests/support/techniques.hpp>
 #include <tests/support/vulkan_host.hpp>
 
 #include <cstdint>
@@ -76,7 +77,7 @@ TEST(Barriers, ThatAreLeftOutAreMissed) {
         lies.entry_points["vkCmdPipelineBarrier"] =
             reinterpret_cast<PFN_vkVoidFunction>(&max_barriers);
         const test_support::FakeLoader loader(host.device(), lies);
-        for (const Technique technique : {Technique::raster, Technique::compute}) {
+        for (const Technique technique : device_techniques) {
             SCOPED_TRACE(to_string(technique));
             left_out = none;
             const std::vector<double> expected = frame(loader.host(), technique);

@@ -200,7 +200,7 @@ TEST_F(ContainmentQueries, RefuseWhatTheyCannotUse) {
     const PlacedPair pair(
         context(),
         {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 0.1});
-    for (const Technique technique : {Technique::raster, Technique::compute}) {
+    for (const Technique technique : device_techniques) {
         const Status status =
             run_alone(context(), ContainmentQuery{pair.instance_a(), pair.instance_b(), technique})
                 .status;

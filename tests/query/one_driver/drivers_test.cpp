@@ -14,7 +14,6 @@ namespace nearfield::test {
 namespace {
 
 constexpr std::uint64_t seed = 2357;
-constexpr Technique on_device[] = {Technique::raster, Technique::compute};
 constexpr IntersectionKind every_kind[] = {IntersectionKind::boundary_boundary,
                                            IntersectionKind::boundary_volume,
                                            IntersectionKind::volume_volume};
@@ -88,7 +87,7 @@ std::vector<Vector2> Questions::some_points() const {
 }
 
 void Questions::add_records() {
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         for (const PenetrationPoints points :
              {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
             PenetrationQuery query = pair_->penetration(points);
@@ -140,7 +139,7 @@ void Questions::add_fields() {
     }
     query.points = points_;
     query.gradients = true;
-    for (const Technique technique : on_device) {
+    for (const Technique technique : device_techniques) {
         query.technique = technique;
         query.gradient = GradientMethod::central_differences;
         add(query);

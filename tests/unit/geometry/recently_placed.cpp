@@ -41,8 +41,7 @@ TEST(RecentlyPlaced, IsWhatIsPlacedAnew) {
             ASSERT_TRUE(polygons[2].assign(test::star(random, 20, 0.3)).ok());
         }
         const BoxedPolygon expected(polygon, pose);
-        EXPECT_EQ(recent.place(polygon, pose).translation(), expected.placed.translation());
-        expect_same(recent.place_with_box(polygon, pose), expected);
+        expect_same(recent.place(polygon, pose), expected);
     }
 }
 
@@ -55,8 +54,8 @@ TEST(RecentlyPlaced, TellsPosesApart) {
                                   {{0.0, 0.0}, 1.0}, {{-0.0, 0.0}, 0.0}, {{0.0, 0.0}, -0.0}};
     for (const Pose& pose : poses) {
         for (const Pose& other : poses) {
-            static_cast<void>(recent.place_with_box(polygon, other));
-            expect_same(recent.place_with_box(polygon, pose), BoxedPolygon(polygon, pose));
+            static_cast<void>(recent.place(polygon, other));
+            expect_same(recent.place(polygon, pose), BoxedPolygon(polygon, pose));
         }
     }
 }

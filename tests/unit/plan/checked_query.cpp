@@ -56,5 +56,19 @@ TEST_F(CheckedQueryTest, TheCpuHasWhatTheDeviceDoesNotSearch) {
     EXPECT_EQ(check_one(separation).technique, Technique::cpu);
 }
 
+TEST_F(CheckedQueryTest, ATechniqueThatTheLibraryWasBuiltWithoutIsRefusedByName) {
+    limits_.techniques.has_raster = limits_.techniques.raster = false;
+    PenetrationQuery query;
+    query.technique = Technique::raster;
+    query.tolerance = 0.01;
+    queries_.assign(1, query);
+    const std::vector<QueryShapes> shapes{{&square_, &square_}};
+    EXPECT_TRUE(test::checked_queries(queries_, shapes, limits_, results_).empty());
+    const Status& status = std::get<PenetrationResult>(results_.front()).status;
+    EXPECT_EQ(status.code(), StatusCode::unsupported_technique);
+    EXPECT_NE(status.message().find("built without the technique raster"), std::string::npos)
+        << status.text();
+}
+
 }  // namespace
 }  // namespace nearfield::plan

@@ -1,11 +1,11 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
-#include <engine/plan/nearest_edges.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
+#include <tests/unit/support/tile_cases.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,43 +21,9 @@ namespace {
 using geometry::Polygon;
 using geometry::TransformedPolygon;
 using geometry::Vector;
-
-constexpr std::uint32_t width = 40;
-constexpr std::uint32_t height = 24;
-
-/// A shape over, around or beside a tile of 40 x 24 cells of side 1 with its low corner at the
-/// origin.
-struct Case {
-    std::string name;
-    Polygon polygon;
-    Pose pose;
-    SimplifiedShapes shapes;
-    std::optional<TileBoundary> placed;
-
-    Case(const test::NamedRings& shape, std::uint64_t seed, double deviation) {
-        test::Random random(seed);
-        const double size = random.scale(3.0, 3e5);
-        name = shape.name + ", seed " + std::to_string(seed);
-        EXPECT_TRUE(polygon.assign(test::scaled_and_moved(shape.rings, size, {})).ok()) << name;
-        pose = {{random.between(-0.7, 0.7) * size + 0.5 * width,
-                 random.between(-0.7, 0.7) * size + 0.5 * height},
-                random.between(0.0, 7.0)};
-        placed.emplace(shapes.get(polygon, deviation, 64.0),
-                       ToCells(TransformedPolygon(polygon, pose), Vector::Zero(), 1.0));
-    }
-
-    [[nodiscard]] const TileBoundary& boundary() const { return *placed; }
-};
-
-std::vector<std::unique_ptr<Case>> cases(double deviation) {
-    std::vector<std::unique_ptr<Case>> all;
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-        for (const test::NamedRings& shape : test::every_family(seed)) {
-            all.push_back(std::make_unique<Case>(shape, 1000 * seed + all.size(), deviation));
-        }
-    }
-    return all;
-}
+using test::cases;
+using test::height;
+using test::width;
 
 bool crosses(const Vector& p, const Vector& a, const Vector& b) {
     return (a.y() > p.y()) != (b.y() > p.y()) &&
@@ -211,76 +177,6 @@ TEST(CrossingEdges, GiveTheParityOfTheWholeBoundary) {
             }
             if (distance > 1e-12) {
                 ASSERT_EQ(odd, whole) << c->name << " at " << p.transpose();
-            }
-        }
-    }
-}
-
-TEST(NearestEdges, ComeInOrderFromEveryPartOfTheTile) {
-    std::vector<NearestEdge> all;
-    std::vector<NearestEdge> part;
-    NearestEdgeFinder finder;
-    for (const auto& c : cases(0.3)) {
-        NeededBlocks everything(width, height);
-        everything.add_all();
-        finder.find(c->boundary(), everything, 0.5, all);
-        ASSERT_FALSE(all.empty()) << c->name;
-        for (std::size_t i = 1; i < all.size(); ++i) {
-            ASSERT_LT(all[i - 1].edge.simplified, all[i].edge.simplified) << c->name;
-        }
-        NeededBlocks corner(width, height);
-        corner.add(width - 1, height - 1);
-        finder.find(c->boundary(), corner, 0.5, part);
-        ASSERT_TRUE(std::includes(all.begin(), all.end(), part.begin(), part.end(),
-                                  [](const NearestEdge& i, const NearestEdge& j) {
-                                      return i.edge.simplified < j.edge.simplified;
-                                  }))
-            << c->name;
-    }
-}
-
-TEST(NearestEdges, HoldTheNearestEdgeOfEveryNeededSampleOnItsSide) {
-    const double slack = 0.5;
-    const double deviation = 0.3;
-    std::vector<NearestEdge> found;
-    NearestEdgeFinder finder;
-    test::Random random(9);
-    for (const auto& c : cases(deviation)) {
-        NeededBlocks needed(width, height);
-        std::vector<Vector> samples;
-        for (int i = 0; i < 30; ++i) {
-            const Vector p(random.between(0.0, width), random.between(0.0, height));
-            needed.add(static_cast<std::uint32_t>(p.x()), static_cast<std::uint32_t>(p.y()));
-            samples.push_back(p);
-        }
-        finder.find(c->boundary(), needed, slack, found);
-        std::vector<const NearestEdge*> by_edge(c->boundary().size(), nullptr);
-        for (const NearestEdge& edge : found) {
-            by_edge[edge.edge.simplified] = &edge;
-        }
-        for (const Vector& p : samples) {
-            double nearest = 1e300;
-            std::vector<double> distances;
-            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
-                distances.push_back(std::sqrt(
-                    geometry::nearest_on_segment(p, c->boundary().start(e), c->boundary().end(e))
-                        .squared_distance));
-                nearest = std::min(nearest, distances.back());
-            }
-            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
-                // Any edge that the deviation may make nearest.
-                if (distances[e] > nearest + 2.0 * deviation) {
-                    continue;
-                }
-                ASSERT_NE(by_edge[e], nullptr)
-                    << c->name << ": edge " << e << " at " << p.transpose();
-                if (distances[e] == nearest) {
-                    const double left = geometry::cross(
-                        c->boundary().end(e) - c->boundary().start(e), p - c->boundary().start(e));
-                    const double reach =
-                        left >= 0.0 ? by_edge[e]->reach_left : by_edge[e]->reach_right;
-                    ASSERT_GE(reach, nearest) << c->name << ": edge " << e;
-                }
             }
         }
     }

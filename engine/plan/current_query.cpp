@@ -1,0 +1,35 @@
+#include <engine/geometry/magnitude.hpp>
+#include <engine/plan/check_query.hpp>
+#include <engine/plan/current_query.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace nearfield::plan {
+
+using geometry::BoxedPolygon;
+
+bool check_numbers(const PlannedQuery& planned, const BoxedPolygon& a, const BoxedPolygon& b,
+                   ResultSummary& result) {
+    result.status = check_deviations(result.tolerance, planned.deviations, planned.budget.bound);
+    if (result.status.ok()) {
+        result.status = check_resolution(
+            result.tolerance,
+            std::max(geometry::largest_magnitude(a.placed, planned.pose_a, a.box),
+                     geometry::largest_magnitude(b.placed, planned.pose_b, b.box)));
+    }
+    return result.status.ok();
+}
+
+std::uint32_t add_reverse(CurrentQuery& current) {
+    PlannedQuery reverse = current.planned();
+    std::swap(reverse.a, reverse.b);
+    std::swap(reverse.pose_a, reverse.pose_b);
+    std::swap(reverse.deviations.a, reverse.deviations.b);
+    const auto index = static_cast<std::uint32_t>(current.plan.queries.size());
+    current.planned().points().reverse = index;
+    current.plan.queries.push_back(reverse);
+    return index;
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,107 @@
+#include <engine/raster/atlas.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace nearfield::raster {
+namespace {
+
+std::vector<AtlasPlace> pack(AtlasPacker& packer, const std::vector<TileSize>& sizes) {
+    std::vector<std::uint32_t> order;
+    std::vector<plan::Tile> tiles;
+    for (const TileSize& size : sizes) {
+        order.push_back(static_cast<std::uint32_t>(tiles.size()));
+        plan::Tile& tile = tiles.emplace_back();
+        tile.width = size.width;
+        tile.height = size.height;
+    }
+    std::vector<AtlasPlace> places(sizes.size());
+    packer.pack(order, tiles, places);
+    return places;
+}
+
+TEST(AtlasPacker, TilesOfATileBatchNeverOverlapAndStayInTheImage) {
+    for (std::uint32_t seed = 0; seed < 50; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::mt19937 random(seed);
+        const std::uint32_t largest = 64U << (seed % 3);
+        std::vector<TileSize> tiles(1 + random() % 200);
+        for (TileSize& tile : tiles) {
+            tile = {1 + static_cast<std::uint32_t>(random() % largest),
+                    1 + static_cast<std::uint32_t>(random() % (seed % 2 == 0 ? largest : 8))};
+        }
+        AtlasPacker packer;
+        packer.begin(largest);
+        const std::vector<AtlasPlace> places = pack(packer, tiles);
+        const std::uint32_t side = largest + atlas_gap;
+        ASSERT_LE(packer.extent().width, side);
+        ASSERT_LE(packer.extent().height, side);
+
+        // Each tile with the gap right of it and above it.
+        const std::uint32_t with_gap = side + atlas_gap;
+        std::vector<std::vector<bool>> taken(
+            packer.tile_batches(), std::vector<bool>(std::size_t{with_gap} * with_gap, false));
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            ASSERT_LT(places[i].tile_batch, packer.tile_batches());
+            ASSERT_LE(places[i].x + tiles[i].width, packer.extent().width);
+            ASSERT_LE(places[i].y + tiles[i].height, packer.extent().height);
+            for (std::uint32_t y = 0; y < tiles[i].height + atlas_gap; ++y) {
+                for (std::uint32_t x = 0; x < tiles[i].width + atlas_gap; ++x) {
+                    const std::size_t pixel =
+                        std::size_t{places[i].y + y} * with_gap + places[i].x + x;
+                    ASSERT_FALSE(taken[places[i].tile_batch][pixel]) << "tile " << i;
+                    taken[places[i].tile_batch][pixel] = true;
+                }
+            }
+        }
+    }
+}
+
+TEST(AtlasPacker, ManySmallTilesOfOneSizeWasteLittle) {
+    const std::vector<TileSize> tiles(1000, {32, 32});
+    AtlasPacker packer;
+    packer.begin(2048);
+    pack(packer, tiles);
+    EXPECT_EQ(packer.tile_batches(), 1U);
+    const std::uint32_t side = 32 + atlas_gap;
+    EXPECT_LE(packer.extent().width * packer.extent().height, 1000U * side * side * 5U / 4U);
+}
+
+TEST(AtlasPacker, FourTilesOfHalfTheLargestSideFitOneImage) {
+    const std::vector<TileSize> tiles(4, {1024, 1024});
+    AtlasPacker packer;
+    packer.begin(2048);
+    pack(packer, tiles);
+    EXPECT_EQ(packer.tile_batches(), 1U);
+}
+
+TEST(AtlasPacker, NoTilesNeedNoTileBatch) {
+    AtlasPacker packer;
+    packer.begin(64);
+    pack(packer, {});
+    EXPECT_EQ(packer.tile_batches(), 0U);
+}
+
+TEST(AtlasPacker, WhatIsPackedLaterLiesInLaterTileBatches) {
+    AtlasPacker packer;
+    packer.begin(64);
+    const std::vector<AtlasPlace> first = pack(packer, {{40, 50}, {40, 50}});
+    pack(packer, {});
+    const std::vector<AtlasPlace> second = pack(packer, {{60, 20}, {8, 8}});
+    EXPECT_EQ(first[0].tile_batch, 0U);
+    EXPECT_EQ(first[1].tile_batch, 1U);
+    EXPECT_EQ(second[0].tile_batch, 2U);
+    EXPECT_EQ(second[1].tile_batch, 2U);
+    EXPECT_EQ(packer.tile_batches(), 3U);
+    EXPECT_GE(packer.extent().width, 60U);
+    EXPECT_GE(packer.extent().height, 50U);
+    packer.begin(64);
+    pack(packer, {{8, 8}});
+    EXPECT_EQ(packer.tile_batches(), 1U);
+    EXPECT_EQ(packer.extent().height, 8U);
+}
+
+}  // namespace
+}  // namespace nearfield::raster

@@ -1,0 +1,241 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/plan/planner.hpp>
+#include <engine/raster/point_planner.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/checked_queries.hpp>
+#include <tests/support/polygons.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Polygon;
+using geometry::Vector;
+
+class PlannerTest : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::vector<Ring> a{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}};
+        const std::vector<Ring> b{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}};
+        ASSERT_TRUE(a_.assign(a).ok());
+        ASSERT_TRUE(b_.assign(b).ok());
+        limits_.memory = 64U << 20U;
+        penetration_.a.shape = {0, 0};
+        penetration_.b = {{1, 0}, {{6.0, 3.0}, 0.3}};
+        penetration_.tolerance = 0.01;
+        penetration_.technique = Technique::raster;
+    }
+
+    void run(std::vector<AnyQuery> queries) {
+        queries_ = std::move(queries);
+        std::vector<QueryShapes> shapes;
+        find_shapes(
+            queries_,
+            [this](ShapeHandle handle) -> const Polygon* {
+                return handle.index == 0 ? &a_ : handle.index == 1 ? &b_ : nullptr;
+            },
+            shapes);
+        checked_ = test::checked_queries(queries_, shapes, limits_, results_);
+        raster::PointPlanner points;
+        const auto plan_drawn = [&](CurrentQuery& current, AnyResult& result) {
+            points.plan(current, result);
+        };
+        Planner planner(limits_);
+        test::plan_all(checked_, plan_drawn, planner, plan_, results_);
+    }
+
+    Polygon a_;
+    Polygon b_;
+    PlanLimits limits_;
+    PenetrationQuery penetration_;
+    std::vector<AnyQuery> queries_;
+    std::vector<CheckedQuery> checked_;
+    Plan plan_;
+    std::vector<AnyResult> results_;
+};
+
+TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
+    limits_.points_tile = 100;
+    run({penetration_});
+    ASSERT_GT(plan_.tiles.size(), 3U);
+    ASSERT_GT(plan_.points.size(), 500U);
+    const geometry::TransformedPolygon a(a_, penetration_.a.pose);
+    for (const PlannedPoint& point : plan_.points) {
+        const Tile& tile = plan_.tiles[point.tile];
+        const Vector local = (position(a, point.point) - tile.origin()) / tile.grid.cell;
+        ASSERT_GE(local.minCoeff(), -1e-9);
+        ASSERT_LE(local.x(), tile.width + 1e-9);
+        ASSERT_LE(local.y(), tile.height + 1e-9);
+        ASSERT_LE(std::max(tile.width, tile.height), limits_.points_tile);
+        const auto side = tile.needed.side();
+        const auto block = [side](double value, std::uint32_t count) {
+            return static_cast<std::uint32_t>(std::clamp(value, 0.0, count - 1.0)) / side;
+        };
+        ASSERT_TRUE(
+            tile.needed.any(block(local.x(), tile.width), block(local.y(), tile.height), 1));
+    }
+}
+
+TEST_F(PlannerTest, AFieldsTilesCoverItsGridOnce) {
+    limits_.largest_tile = 64;
+    DistanceFieldQuery field;
+    field.technique = Technique::raster;
+    field.b = penetration_.b;
+    field.tolerance = 0.05;
+    field.rectangle = Rectangle{{-3.0, 1.0}, {12.5, 9.0}};
+    run({field});
+    const auto& result = std::get<DistanceFieldResult>(results_[0]);
+    EXPECT_EQ(result.width, static_cast<std::uint32_t>(std::ceil(15.5 / (0.05 * std::sqrt(2.0)))));
+    EXPECT_EQ(result.height, static_cast<std::uint32_t>(std::ceil(8.0 / (0.05 * std::sqrt(2.0)))));
+    std::vector<int> covered(std::size_t{result.width} * result.height, 0);
+    for (const Tile& tile : plan_.tiles) {
+        for (std::uint64_t row = tile.row; row < tile.row + tile.height; ++row) {
+            for (std::uint64_t column = tile.column; column < tile.column + tile.width; ++column) {
+                ++covered[row * result.width + column];
+            }
+        }
+    }
+    EXPECT_EQ(covered, std::vector<int>(covered.size(), 1));
+}
+
+TEST_F(PlannerTest, WhatDoesNotFitIsRefusedWithAToleranceThatDoes) {
+    IntersectionQuery query;
+    query.technique = Technique::raster;
+    query.a = penetration_.a;
+    query.b = penetration_.b;
+    query.tolerance = 1e-5;
+    try {
+        run({query});
+        FAIL() << "an intersection of 10^11 cells was planned";
+    } catch (const StatusException& failure) {
+        EXPECT_EQ(failure.status().code(), StatusCode::too_large);
+        const std::string& message = failure.status().message();
+        const std::string lead = "the smallest tolerance that fits is about ";
+        const auto at = message.find(lead);
+        ASSERT_NE(at, std::string::npos) << message;
+        query.tolerance = std::stod(message.substr(at + lead.size()));
+        EXPECT_GT(query.tolerance, 1e-5);
+    }
+    EXPECT_NO_THROW(run({query})) << "the tolerance that the message names";
+}
+
+TEST_F(PlannerTest, MemoryIsCountedOverTheWholeBatch) {
+    IntersectionQuery query;
+    query.technique = Technique::raster;
+    query.a = penetration_.a;
+    query.b = penetration_.b;
+    query.tolerance = 0.01;
+    run({query});
+    const double one = plan_.result_bytes;
+    ASSERT_GT(one, 0.0);
+    const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / one) + 1;
+    EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), StatusException);
+}
+
+TEST_F(PlannerTest, LimitsAreToldInUnitsInWhichTheyAreNotZero) {
+    IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 1e-5};
+    query.technique = Technique::raster;
+    const auto refusal = [&](std::uint64_t memory) -> std::string {
+        limits_.memory = memory;
+        try {
+            run({query});
+        } catch (const StatusException& failure) {
+            return failure.status().message();
+        }
+        return "planned";
+    };
+    const auto says = [](const std::string& message, const std::string& part) {
+        return message.find(part) != std::string::npos;
+    };
+    for (const auto& [memory, told] :
+         {std::pair{(64ULL << 20U) + 1, "64 MiB; the smallest"},
+          std::pair{1ULL << 20U, "1 MiB; images take all of it"},
+          std::pair{(1ULL << 20U) - 1, "1023 KiB; images"}, std::pair{1ULL << 10U, "1 KiB; images"},
+          std::pair{1023ULL, "1023 bytes; images"}}) {
+        const std::string message = refusal(memory);
+        EXPECT_TRUE(says(message, std::string(", more than the limit of ") + told)) << message;
+    }
+    // What is needed is rounded up, and never told as less than the limit.
+    query.tolerance = 0.5;
+    const std::string message = refusal(1U << 20U);
+    EXPECT_TRUE(says(message, "needs up to 4 MiB, more than the limit of 1 MiB; images"))
+        << message;
+}
+
+TEST_F(PlannerTest, ResidentSamplesAreGivenAllTheRoomOfTheBufferButTheSummarys) {
+    IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 0.1};
+    query.technique = Technique::compute;
+    query.on_device = query.samples_on_device = true;
+    const auto status_with_room = [&](double cells, std::uint64_t less) {
+        limits_.largest_range = sizeof(IntersectionSummaryData) +
+                                static_cast<std::uint64_t>(cells) * sizeof(IntersectionSampleData) -
+                                less;
+        run({query});
+        return std::get<IntersectionResult>(results_.front()).status;
+    };
+    const Status refused = status_with_room(100.0, 0);  // the shapes alone fit
+    ASSERT_EQ(refused.code(), StatusCode::too_large);
+    const auto at = refused.message().find("has ");
+    ASSERT_NE(at, std::string::npos) << refused.message();
+    const double cells = std::stod(refused.message().substr(at + 4));
+    ASSERT_GT(cells, 100.0);
+    EXPECT_TRUE(status_with_room(cells, 0).ok());
+    EXPECT_EQ(status_with_room(cells, 1).code(), StatusCode::too_large);
+}
+
+TEST_F(PlannerTest, BoundariesMeetWhereBothAreGrownByTheBound) {
+    IntersectionQuery query{.a = penetration_.a, .b = {{1, 0}, {}}, .tolerance = 0.01};
+    query.technique = Technique::raster;
+    query.kind = IntersectionKind::boundary_boundary;
+    const auto tiles_at = [&](double gap) {
+        query.b.pose.translation = {10.0 + gap, 0.0};
+        run({query});
+        EXPECT_TRUE(std::get<IntersectionResult>(results_.front()).status.ok());
+        return plan_.tiles.size();
+    };
+    ASSERT_GT(tiles_at(0.0), 0U);
+    const double bound = std::get<IntersectionResult>(results_.front()).error_bound;
+    EXPECT_GT(tiles_at(1.99 * bound), 0U);
+    EXPECT_EQ(tiles_at(2.01 * bound), 0U);
+}
+
+TEST_F(PlannerTest, TheDeviceSearchesForContactsAsFarAsTheyReach) {
+    ContactQuery query;
+    query.a = penetration_.a;
+    query.b = {{1, 0}, {}};
+    query.tolerance = 0.01;
+    query.contact_distance = 0.5;
+    query.technique = Technique::compute;
+    const auto searched_at = [&](double gap) {
+        query.b.pose.translation = {10.0 + gap, 0.0};
+        run({query});
+        return plan_.pairs.directions.size();
+    };
+    EXPECT_EQ(searched_at(-1.0), 2U) << "points of either boundary";
+    EXPECT_EQ(searched_at(0.49), 2U);
+    EXPECT_EQ(searched_at(0.51), 0U);
+}
+
+TEST_F(PlannerTest, PointsThatTheDeviceSearchesCountOnceTheyAreFound) {
+    penetration_.technique = Technique::compute;
+    penetration_.b.pose = {{1.0, 1.0}, 0.0};
+    constexpr std::size_t many = 10'000;
+    run(std::vector<AnyQuery>(many, penetration_));
+    EXPECT_EQ(plan_.pairs.directions.size(), many);
+    EXPECT_TRUE(plan_.tiles.empty());
+    EXPECT_EQ(plan_.result_bytes, 0.0);
+}
+
+TEST_F(PlannerTest, ShapesFarApartPlanNothing) {
+    penetration_.b.pose.translation = {1000.0, 0.0};
+    run({penetration_});
+    EXPECT_TRUE(plan_.tiles.empty());
+    EXPECT_TRUE(std::get<PenetrationResult>(results_[0]).regions.empty());
+}
+
+}  // namespace
+}  // namespace nearfield::plan
