@@ -173,9 +173,9 @@ std::string Renderer::print(GraphFormat format) const {
         return text;
     }
     if (drawn_ != nullptr) {
-        text += drawn_->print(format);
+        add(*drawn_, "drawn tiles");
     }
-    text += computed_.print(format);
+    add(computed_, "computed tiles");
     if (last_had_search_) {
         add(passes_.pair_search(plan::given_pairs), "search for points");
     }

@@ -51,8 +51,8 @@ public:
     }
 
     /// The graph of the last tile batch; empty if the last batch had none.
-    [[nodiscard]] std::string print(GraphFormat format) const {
-        return last_graph_ == nullptr ? std::string() : last_graph_->print(format, "tiles");
+    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
+        return last_graph_ == nullptr ? std::string() : last_graph_->print(format, title);
     }
     void set_last_graph(std::shared_ptr<const graph::CompiledGraph> graph) {
         last_graph_ = std::move(graph);

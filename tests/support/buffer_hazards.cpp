@@ -102,7 +102,7 @@ std::map<VkPipelineStageFlags, VkAccessFlags> readers_of(VkBuffer buffer) {
         name == "nearfield search arguments" || name == "nearfield long searches" ||
         name == "nearfield pair points" || name == "nearfield pair rows" ||
         name == "nearfield pair counts" || name == "nearfield pair poses" ||
-        name == "nearfield world answers") {
+        name == "nearfield world answers" || name == "nearfield stamp") {
         return {{VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT}};
     }
     if (is_for_shaders_of_host(name)) {
