@@ -52,8 +52,8 @@ check_sanitized() {
         "$root/build/sanitize/tests"
     # On a device, so without leak detection: calls that are ended at every stage, and shader reload,
     # which only debug builds have.
-    ASAN_OPTIONS=detect_leaks=0 "$root/build/sanitize/tests/limits/test_limits" --gtest_brief=1
-    ASAN_OPTIONS=detect_leaks=0 "$root/build/sanitize/tests/reload/test_reload" --gtest_brief=1
+    printf '%s\n' limits/test_limits reload/test_reload | ASAN_OPTIONS=detect_leaks=0 \
+        xargs -P "$jobs" -I PROGRAM "$root/build/sanitize/tests/PROGRAM" --gtest_brief=1
 }
 
 # Runs contexts, and histories of worlds, on several threads, with a check of every shared memory
@@ -63,9 +63,9 @@ check_threads() {
     build threads --target test_threads test_worlds
     # TSAN_OPTIONS cannot contain a path with a space.
     (cd "$root" && export TSAN_OPTIONS="suppressions=tests/threads/suppressions.txt halt_on_error=1" &&
-        build/threads/tests/threads/test_threads --gtest_brief=1 &&
-        NEARFIELD_TEST_CASES=40 build/threads/tests/worlds/test_worlds --gtest_brief=1 \
-            --gtest_filter='WorldHistory.*')
+        printf '%s\n' 'threads/test_threads *' 'worlds/test_worlds WorldHistory.*' |
+        NEARFIELD_TEST_CASES=40 xargs -P "$jobs" -L 1 \
+            bash -c '"build/threads/tests/$0" --gtest_brief=1 --gtest_filter="$1"')
 }
 
 # expect_none WHAT LINES: fails and shows the lines if there are any.
