@@ -69,16 +69,16 @@ void write_bench_json(std::ostream& stream, const Measurement& measurement,
                       std::string_view technique) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("scene").value(std::string_view(arguments.scene));
-    json.key("device").value_or_null(device);
-    json.key("technique").value(technique);
-    json.key("pairs").value(std::uint64_t{measurement.pairs});
-    json.key("world_inputs").value(std::uint64_t{measurement.world_inputs});
-    json.key("keep").value(arguments.keep);
-    json.key("frames").value(std::uint64_t{arguments.frames});
-    json.key("median_ms").value(measurement.frame_ms.median);
-    json.key("min_ms").value(measurement.frame_ms.least);
-    json.key("max_ms").value(measurement.slowest_ms);
+    json.member("scene", arguments.scene);
+    json.member("device", device, !device.empty());
+    json.member("technique", technique);
+    json.member("pairs", measurement.pairs);
+    json.member("world_inputs", measurement.world_inputs);
+    json.member("keep", arguments.keep);
+    json.member("frames", arguments.frames);
+    json.member("median_ms", measurement.frame_ms.median);
+    json.member("min_ms", measurement.frame_ms.least);
+    json.member("max_ms", measurement.slowest_ms);
     write_timings(json, measurement.timings);
     json.end_object();
     stream << '\n';

@@ -13,35 +13,16 @@ namespace {
 
 using simulation::ClearanceFrame;
 
-/// The members of a clearance; an instance is the number of an obstacle.
-class ClearanceRow {
-public:
-    ClearanceRow(JsonWriter& json, const ClearanceFrame& frame) : json_(json), frame_(frame) {}
-
-    void number(std::string_view name, double number) { json_.key(name).value(number); }
-    void instance(std::string_view name, InstanceHandle /*handle*/) {
-        json_.key(name);
-        frame_.neighbor ? json_.value(std::uint64_t{*frame_.neighbor}) : json_.null();
-    }
-    void point(std::string_view name, Vector2 point, bool is_there) {
-        json_.key(name);
-        is_there ? json_.value(point) : json_.null();
-    }
-
-private:
-    JsonWriter& json_;
-    const ClearanceFrame& frame_;
-};
-
 void write_frame(JsonWriter& json, const ClearanceFrame& frame) {
     json.begin_object();
-    json.key("time").value(frame.time);
-    json.key("query_ms").value(frame.milliseconds);
-    json.key("translation").value(frame.pose.translation);
-    json.key("degrees").value(frame.pose.angle * 180.0 / std::numbers::pi);
-    json.key("free_paths").value(std::uint64_t{frame.free_paths});
-    json.key("best_path").value(std::uint64_t{frame.best_path});
-    ClearanceRow row(json, frame);
+    json.member("time", frame.time);
+    json.member("query_ms", frame.milliseconds);
+    json.member("translation", frame.pose.translation);
+    json.member("degrees", frame.pose.angle * 180.0 / std::numbers::pi);
+    json.member("free_paths", frame.free_paths);
+    json.member("best_path", frame.best_path);
+    // An instance is the number of an obstacle.
+    JsonRow row(json, [&frame](InstanceHandle /*handle*/) { return frame.neighbor; });
     write_cells(row, frame.clearance);
     json.end_object();
 }
@@ -68,22 +49,19 @@ void write_clearance_json(std::ostream& stream, const ClearanceReport& report) {
     const simulation::ClearanceScene& scene = report.scene;
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("scene").value(std::string_view(scene.name()));
-    json.key("technique").value(to_string(Technique::cpu));
+    json.member("scene", scene.name());
+    json.member("technique", to_string(Technique::cpu));
     json.key("device").null();
-    json.key("min_clearance").value(scene.query().min_clearance);
-    json.key("max_clearance").value(scene.query().max_clearance);
-    json.key("objects").value(std::uint64_t{scene.obstacles().size()});
-    json.key("lines").value(std::uint64_t{scene.line_count()});
-    json.key("paths_a_frame").value(std::uint64_t{report.frames.back().paths});
-    json.key("poses_a_frame").value(std::uint64_t{report.frames.back().poses});
-    json.key("least_clearance").value(least_clearance(report));
-    json.key("median_query_ms").value(query_times(report).median);
-    json.key("frames").begin_array(JsonWriter::Layout::lines);
-    for (const ClearanceFrame& frame : report.frames) {
-        write_frame(json, frame);
-    }
-    json.end_array();
+    json.member("min_clearance", scene.query().min_clearance);
+    json.member("max_clearance", scene.query().max_clearance);
+    json.member("objects", scene.obstacles().size());
+    json.member("lines", scene.line_count());
+    json.member("paths_a_frame", report.frames.back().paths);
+    json.member("poses_a_frame", report.frames.back().poses);
+    json.member("least_clearance", least_clearance(report));
+    json.member("median_query_ms", query_times(report).median);
+    json.list("frames", report.frames,
+              [&json](const ClearanceFrame& frame) { write_frame(json, frame); });
     json.end_object();
     stream << '\n';
 }

@@ -1,5 +1,6 @@
 #include <tools/cli/gpu_report.hpp>
 #include <tools/io/json_writer.hpp>
+#include <tools/io/query_json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -104,7 +105,7 @@ void write_refusals(std::ostream& stream, std::span<const GpuRow> rows) {
 void write_time(JsonWriter& json, const GpuTime& time) {
     json.key(time.way);
     if (!time.refusal.empty()) {
-        json.begin_object().key("refused").value(std::string_view(time.refusal)).end_object();
+        json.begin_object().member("refused", time.refusal).end_object();
         return;
     }
     if (time.frames == 0) {
@@ -112,20 +113,11 @@ void write_time(JsonWriter& json, const GpuTime& time) {
         return;
     }
     json.begin_object();
-    json.key("frames").value(std::uint64_t{time.frames});
-    json.key("median_ms").value(time.frame);
-    json.key("cpu_ms").value(time.cpu);
-    json.key("device_ms");
-    if (time.device) {
-        json.value(*time.device);
-    } else {
-        json.null();
-    }
-    json.key("passes_ms").begin_object();
-    for (const PassTime& pass : time.passes) {
-        json.key(pass.name).value(pass.milliseconds);
-    }
-    json.end_object();
+    json.member("frames", time.frames);
+    json.member("median_ms", time.frame);
+    json.member("cpu_ms", time.cpu);
+    json.member("device_ms", time.device);
+    write_passes(json, "passes_ms", time.passes);
     json.end_object();
 }
 
@@ -155,13 +147,12 @@ void write_gpu_json(std::ostream& stream, std::span<const GpuRow> rows,
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     write_surroundings(json, surroundings);
-    json.key("rows").begin_array(JsonWriter::Layout::lines);
-    for (const GpuRow& row : rows) {
+    json.list("rows", rows, [&json](const GpuRow& row) {
         json.begin_object(JsonWriter::Layout::lines);
-        json.key("name").value(std::string_view(row.name));
-        json.key(row.has_pairs ? "pairs" : "cells").value(row.size);
+        json.member("name", row.name);
+        json.member(row.has_pairs ? "pairs" : "cells", row.size);
         if (row.has_pairs) {
-            json.key("points").value(row.found);
+            json.member("points", row.found);
         }
         json.key("times").begin_object(JsonWriter::Layout::lines);
         for (const GpuTime& time : row.times) {
@@ -169,8 +160,7 @@ void write_gpu_json(std::ostream& stream, std::span<const GpuRow> rows,
         }
         json.end_object();
         json.end_object();
-    }
-    json.end_array();
+    });
     json.end_object();
     stream << '\n';
 }

@@ -13,7 +13,7 @@ public:
     void add(Technique technique) { bits_ |= bit(technique); }
     /// Queries that only the CPU answers need no device, whatever technique they request.
     void add(const QueryRequest& request) {
-        add(is_sampled(request.type) ? request.technique : Technique::cpu);
+        add(is_sampled(request.type) ? technique_of(request) : Technique::cpu);
     }
     [[nodiscard]] bool has(Technique technique) const { return (bits_ & bit(technique)) != 0; }
 

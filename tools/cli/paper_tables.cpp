@@ -168,56 +168,47 @@ void print_tables(std::ostream& stream, const Measured& measured, const benchmar
 }
 
 void write_times(JsonWriter& json, const QueryTimes& times) {
-    json.key("queries").value(times.queries);
-    json.key("points").value(times.points);
+    json.member("queries", times.queries);
+    json.member("points", times.points);
     json.key("ms").begin_object();
     for (std::size_t i = 0; i < techniques_measured; ++i) {
-        json.key(to_string(QueryStopwatch::techniques()[i]));
-        times.milliseconds[i] ? json.value(*times.milliseconds[i]) : json.null();
+        json.member(to_string(QueryStopwatch::techniques()[i]), times.milliseconds[i]);
     }
     json.end_object();
 }
 
 void write_rows(JsonWriter& json, const char* name, const std::vector<PaperRow>& rows) {
-    json.key(name).begin_array(JsonWriter::Layout::lines);
-    for (const PaperRow& row : rows) {
+    json.list(name, rows, [&json](const PaperRow& row) {
         json.begin_object();
-        json.key("name").value(std::string_view(row.name));
-        json.key("objects").value(std::uint64_t{row.objects});
-        json.key("lines").value(std::uint64_t{row.lines});
-        json.key("tolerance").value(row.tolerance);
+        json.member("name", row.name);
+        json.member("objects", row.objects);
+        json.member("lines", row.lines);
+        json.member("tolerance", row.tolerance);
         write_times(json, row.times);
-        json.key("paper_ms").begin_array();
-        for (const double time : row.paper) {
-            json.value(time);
-        }
-        json.end_array();
+        json.member("paper_ms", row.paper);
         json.end_object();
-    }
-    json.end_array();
+    });
 }
 
 void write_growth(JsonWriter& json, const char* name, const char* of,
                   const std::vector<GrowthPoint>& points) {
-    json.key(name).begin_array(JsonWriter::Layout::lines);
-    for (const GrowthPoint& point : points) {
+    json.list(name, points, [&](const GrowthPoint& point) {
         json.begin_object();
-        json.key(of).value(point.of);
+        json.member(of, point.of);
         write_times(json, point.times);
         json.end_object();
-    }
-    json.end_array();
+    });
 }
 
 void write_json(std::ostream& stream, const Measured& measured, const benchmark::Machine& machine,
                 const std::string& device) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("commit").value(std::string_view(machine.commit));
-    json.key("date").value(std::string_view(machine.date));
-    json.key("processor").value(std::string_view(machine.processor));
-    json.key("cores").value(std::uint64_t{machine.cores});
-    json.key("device").value_or_null(device);
+    json.member("commit", machine.commit);
+    json.member("date", machine.date);
+    json.member("processor", machine.processor);
+    json.member("cores", machine.cores);
+    json.member("device", device, !device.empty());
     write_rows(json, "table_2", measured.table_2);
     write_rows(json, "table_3", measured.table_3);
     write_growth(json, "growth_with_lines", "lines", measured.lines);

@@ -48,7 +48,7 @@ void complete_field_request(const QueryArguments& arguments, QueryRequest& reque
     };
     request.features = arguments.features || shown(FieldPicture::voronoi);
     request.gradients = arguments.gradient_field || shown(FieldPicture::gradient);
-    if (arguments.gradient && !request.gradients && request.at.empty()) {
+    if (request.gradient && !request.gradients && request.at.empty()) {
         throw InputError(
             "--gradient: there is no gradient asked for; add --gradient-field, --at or --show "
             "gradient");
@@ -61,13 +61,6 @@ void complete_field_request(const QueryArguments& arguments, QueryRequest& reque
 
 QueryRequest make_request(const QueryArguments& arguments) {
     QueryRequest request = arguments.request;
-    request.strategy = arguments.strategy.value_or(request.strategy);
-    request.sign = arguments.sign.value_or(request.sign);
-    request.gradient = arguments.gradient.value_or(request.gradient);
-    const bool names_a_way_of_drawing =
-        (request.type == QueryType::intersection && arguments.strategy) || arguments.sign;
-    request.technique = arguments.technique.value_or(names_a_way_of_drawing ? Technique::raster
-                                                                            : Technique::automatic);
     for (const std::string& point : arguments.at) {
         request.at.push_back(parse_point(point, "--at"));
     }

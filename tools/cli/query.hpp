@@ -23,10 +23,6 @@ struct QueryArguments {
     DegreesPose pose_b;
     std::optional<DegreesPose> end_pose_a;
     std::optional<DegreesPose> end_pose_b;
-    std::optional<Technique> technique;
-    std::optional<IntersectionStrategy> strategy;
-    std::optional<SignEncoding> sign;
-    std::optional<GradientMethod> gradient;
     std::vector<std::string> at;
     SettingsArguments settings;
     std::optional<std::string> json;

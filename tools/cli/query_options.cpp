@@ -1,8 +1,9 @@
 #include <tools/cli/help_formatter.hpp>
 #include <tools/cli/query_options.hpp>
 #include <tools/common/parsed_option.hpp>
-#include <tools/io/query_request.hpp>
+#include <tools/io/query_members.hpp>
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <memory>
@@ -86,13 +87,13 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
                       "tolerance; default a sixteenth of it each")
         ->type_name("DEVIATION");
     add_parsed_option(
-        kind, "--units", arguments.unit, parse_length_unit,
+        kind, "--units", arguments.unit, parse_name<LengthUnit>,
         "The unit of coordinates read from SVG and DXF: user (user units as they are), or "
         "px, mm, cm, in, pt or pc, with viewBox, width and height (of DXF $INSUNITS) applied; "
         "default "
         "user")
         ->type_name("NAME");
-    add_parsed_option(kind, "--fill-rule", arguments.treatment.fill_rule, parse_fill_rule,
+    add_parsed_option(kind, "--fill-rule", arguments.treatment.fill_rule, parse_name<FillRule>,
                       "What the rings of A and B enclose: odd-even, nonzero, positive (a winding "
                       "number above 0), or union (of the polygons, each odd-even); edges inside "
                       "are no boundary; default odd-even, and no edge is changed; of SVG as each "
@@ -129,109 +130,45 @@ void add_pose_options(CLI::App& kind, QueryArguments& arguments, QueryType type)
     }
 }
 
-void add_contact_options(CLI::App& kind, QueryRequest& request) {
-    add_parsed_option(kind, "--contact-distance", request.contact_distance, parse_positive,
-                      "Distance that counts as contact, world units, > 0; default the tolerance")
-        ->type_name("D");
-    add_parsed_option(kind, "--normals", request.normals, parse_normals,
-                      "Source of the normals: analytic (the nearest feature) or gradient "
-                      "(differences of the signed field); default analytic")
-        ->type_name("NAME");
-}
-
-void add_field_options(CLI::App& kind, QueryArguments& arguments) {
-    add_parsed_option(
-        kind, "--rect", arguments.request.rectangle, parse_rectangle,
-        "Extent of the grid, world units; default the common box of A and B grown by the tolerance")
-        ->type_name("X0,Y0,X1,Y1");
-    add_parsed_option(
-        kind, "--gradient", arguments.gradient, parse_gradient,
-        "Method of the gradients: analytic (from the nearest feature), central-differences, or "
-        "blended (the whole image on the device, technique raster alone); default analytic")
-        ->type_name("NAME");
-    kind.add_option("--at", arguments.at,
-                    "Reconstruct distance, sign and gradient at a point of the grid, world units; "
-                    "repeatable; the JSON lists the points; default none")
-        ->type_name("X,Y")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void add_motion_options(CLI::App& kind, QueryRequest& request) {
-    add_parsed_option(
-        kind, "--contact-distance", request.contact_distance, parse_positive,
-        "Distance that counts as touching, world units, > 0; default 0: the shapes share a point")
-        ->type_name("D");
-    add_parsed_option(kind, "--time-bound", request.time_bound, parse_positive,
-                      "Longest interval of time left open, > 0 and at most 1; the tolerance may "
-                      "demand a shorter one; default 1")
-        ->type_name("T");
-    add_count_option(
-        kind, "--most-steps", request.max_steps, {1, 1'000'000'000},
-        "Limit of evaluations of the shapes; an answer that needs more says so; default 10000")
-        ->type_name("N");
+/// The option of a member, unless only scenes have it.
+void add_member(CLI::App& kind, QueryRequest& request, const QueryMember& member) {
+    if (!member.parse) {
+        return;
+    }
+    std::string name = "--" + member.key;
+    std::replace(name.begin(), name.end(), '_', '-');
+    kind.add_option_function<std::string>(
+            name,
+            [&kind, &request, parse = member.parse, name](const std::string& text) {
+                if (!is_help_asked(kind)) {
+                    parse(request, text, name);
+                }
+            },
+            member.help)
+        ->type_name(member.form);
 }
 
 /// Options for the contents of an answer.
 void add_answer_options(CLI::App& kind, QueryArguments& arguments, QueryType type) {
     kind.option_defaults()->group("Answer");
-    switch (type) {
-        case QueryType::penetration:
-            add_parsed_option(kind, "--points", arguments.request.points, parse_points,
-                              "boundary (samples along A's boundary, no gap wider than a grid "
-                              "cell) or vertices (A's own); default boundary")
-                ->type_name("NAME");
-            break;
-        case QueryType::intersection:
-            add_parsed_option(kind, "--kind", arguments.request.kind, parse_kind,
-                              "boundary-boundary, boundary-volume or volume-volume (of A and of "
-                              "B); default volume-volume")
-                ->type_name("NAME");
-            break;
-        case QueryType::distance_field:
-            add_field_options(kind, arguments);
-            break;
-        case QueryType::contacts:
-            add_contact_options(kind, arguments.request);
-            break;
-        case QueryType::time_of_impact:
-            add_motion_options(kind, arguments.request);
-            break;
-        case QueryType::separation_vector:
-            add_count_option(kind, "--most-work", arguments.request.max_work, {1, 1'000'000'000},
-                             "Limit of edge tests; lower_bound states what the search left open; "
-                             "default 10000000")
-                ->type_name("N");
-            break;
-        case QueryType::closest_point:
-        case QueryType::separation:
-        case QueryType::intersection_test:
-        case QueryType::containment:
-            break;
+    for (const QueryMember& member : answer_members(type)) {
+        add_member(kind, arguments.request, member);
+    }
+    if (type == QueryType::distance_field) {
+        kind.add_option("--at", arguments.at,
+                        "Reconstruct distance, sign and gradient at a point of the grid, world "
+                        "units; repeatable; the JSON lists the points; default none")
+            ->type_name("X,Y")
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
 }
 
 /// Options for the method.
 void add_technique_options(CLI::App& kind, QueryArguments& arguments, QueryType type) {
     kind.option_defaults()->group("Technique");
-    add_parsed_option(kind, "--technique", arguments.technique, parse_technique,
-                      is_sampled(type)
-                          ? "raster, compute, cpu or automatic; default automatic: cpu, and on a "
-                            "GPU compute for large fields"
-                          : "cpu or automatic, which are the same here: the CPU alone answers; "
-                            "default automatic")
-        ->type_name("NAME");
-    add_parsed_option(kind, "--strategy", arguments.strategy, parse_strategy,
-                      "The buffer that finds the samples: stencil, blend, logic-op or depth; all "
-                      "find the same; nearfield info says which the device has; default stencil; "
-                      "naming one asks for the raster")
-        ->type_name("NAME");
-    if (type == QueryType::distance_field) {
-        add_parsed_option(kind, "--sign", arguments.sign, parse_sign,
-                          "The buffer that says what lies inside: stencil, color (set to white) or "
-                          "feature-bit (the top bit of the feature id); default stencil; naming "
-                          "one asks for the raster")
-            ->type_name("NAME");
+    for (const QueryMember& member : technique_members(type)) {
+        add_member(kind, arguments.request, member);
     }
     add_settings_options(kind, arguments.settings);
 }
@@ -248,7 +185,7 @@ void add_output_options(CLI::App& kind, QueryArguments& arguments, QueryType typ
                           "Draw the answer, 1600 x 1200 pixels; default none")
             ->type_name("FILE.png");
     if (type == QueryType::distance_field) {
-        add_parsed_option(kind, "--show", arguments.request.picture, parse_picture,
+        add_parsed_option(kind, "--show", arguments.request.picture, parse_name<FieldPicture>,
                           "Content of the picture: field, voronoi (the nearest features in false "
                           "colour) or gradient; default field")
             ->type_name("NAME")

@@ -65,7 +65,7 @@ void add_outline_options(CLI::App& command, SceneArguments& arguments) {
         ->type_name("TOLERANCE");
     command.add_flag("--hits-only", arguments.hits_only,
                      "For outlines: leave out the results of pairs without a hit");
-    add_parsed_option(command, "--units", arguments.unit, parse_length_unit,
+    add_parsed_option(command, "--units", arguments.unit, parse_name<LengthUnit>,
                       "For outlines: the unit of SVG, as for nearfield query; default user")
         ->type_name("NAME");
     add_parsed_option(
@@ -74,7 +74,7 @@ void add_outline_options(CLI::App& command, SceneArguments& arguments) {
         "sixteenth of the tolerance, without one a 100,000th of a shape's longer side")
         ->type_name("DEVIATION");
     add_parsed_option(
-        command, "--fill-rule", arguments.fill_rule, parse_fill_rule,
+        command, "--fill-rule", arguments.fill_rule, parse_name<FillRule>,
         "For outlines: odd-even, nonzero, positive or union; default as for nearfield query")
         ->type_name("NAME");
     add_parsed_option(command, "--clean-width", arguments.clean_width, parse_positive,
@@ -118,7 +118,7 @@ LayoutRequest layout_request(const SceneArguments& arguments) {
          arguments.queries.empty() ? std::vector<std::string>{"containment", "intersection-test"}
                                    : arguments.queries) {
         QueryRequest query;
-        query.type = parse_query_type(kind, "--query");
+        query.type = parse_name<QueryType>(kind, "--query");
         query.tolerance = arguments.tolerance.value_or(0.0);
         request.queries.push_back(query);
     }

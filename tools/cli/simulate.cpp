@@ -123,8 +123,8 @@ int run_simulate(const SimulateArguments& arguments) {
         return run_clearances(arguments, *clearances);
     }
     simulation::Scene scene = make_scene(arguments.scene, arguments.tolerance, arguments.bodies);
-    const simulation::Response response =
-        parse_response(arguments.response.value_or(default_response));
+    const simulation::Response response = parse_name<simulation::Response>(
+        arguments.response.value_or(default_response), "--response");
     const Technique technique =
         parse_technique_option(arguments.technique).value_or(Technique::automatic);
     const Settings settings = parse_settings(arguments.settings);

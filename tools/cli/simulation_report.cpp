@@ -29,25 +29,25 @@ benchmark::Spread query_times(const SimulationReport& report) {
 
 void write_energies(JsonWriter& json, const simulation::Energies& energies) {
     json.key("energies").begin_object();
-    json.key("kinetic").value(energies.kinetic);
-    json.key("potential").value(energies.potential);
-    json.key("elastic").value(energies.elastic);
-    json.key("contact").value(energies.contact);
-    json.key("total").value(energies.total());
+    json.member("kinetic", energies.kinetic);
+    json.member("potential", energies.potential);
+    json.member("elastic", energies.elastic);
+    json.member("contact", energies.contact);
+    json.member("total", energies.total());
     json.end_object();
 }
 
 void write_frame(JsonWriter& json, const simulation::FrameReport& frame) {
     json.begin_object();
-    json.key("time").value(frame.time);
+    json.member("time", frame.time);
     write_energies(json, frame.energies);
-    json.key("query_ms").value(frame.queries.milliseconds);
-    json.key("queries").value(std::uint64_t{frame.queries.queries});
-    json.key("batches").value(std::uint64_t{frame.queries.batches});
-    json.key("contacts").value(std::uint64_t{frame.contacts});
-    json.key("worst_penetration").value(frame.worst_penetration);
-    json.key("events").value(std::uint64_t{frame.events});
-    json.key("stopped").value(std::uint64_t{frame.stopped});
+    json.member("query_ms", frame.queries.milliseconds);
+    json.member("queries", frame.queries.queries);
+    json.member("batches", frame.queries.batches);
+    json.member("contacts", frame.contacts);
+    json.member("worst_penetration", frame.worst_penetration);
+    json.member("events", frame.events);
+    json.member("stopped", frame.stopped);
     json.end_object();
 }
 
@@ -56,22 +56,19 @@ void write_frame(JsonWriter& json, const simulation::FrameReport& frame) {
 void write_simulation_json(std::ostream& stream, const SimulationReport& report) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("scene").value(std::string_view(report.scene));
-    json.key("response").value(std::string_view(report.response));
-    json.key("technique").value(std::string_view(report.technique));
-    json.key("device").value_or_null(report.device);
-    json.key("tolerance").value(report.tolerance);
-    json.key("objects").value(std::uint64_t{report.objects});
-    json.key("lines").value(std::uint64_t{report.lines});
-    json.key("steps_a_frame").value(std::uint64_t{report.steps});
-    json.key("worst_penetration").value(worst_penetration(report));
-    json.key("median_query_ms").value(query_times(report).median);
+    json.member("scene", report.scene);
+    json.member("response", report.response);
+    json.member("technique", report.technique);
+    json.member("device", report.device, !report.device.empty());
+    json.member("tolerance", report.tolerance);
+    json.member("objects", report.objects);
+    json.member("lines", report.lines);
+    json.member("steps_a_frame", report.steps);
+    json.member("worst_penetration", worst_penetration(report));
+    json.member("median_query_ms", query_times(report).median);
     write_energies(json, report.frames.back().energies);
-    json.key("frames").begin_array(JsonWriter::Layout::lines);
-    for (const simulation::FrameReport& frame : report.frames) {
-        write_frame(json, frame);
-    }
-    json.end_array();
+    json.list("frames", report.frames,
+              [&json](const simulation::FrameReport& frame) { write_frame(json, frame); });
     json.end_object();
     stream << '\n';
 }

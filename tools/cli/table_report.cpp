@@ -4,6 +4,7 @@
 #include <tools/io/query_json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 namespace nearfield::tools {
@@ -45,37 +46,27 @@ FrameWork work_of_row(const RowTimes& row) {
     return most;
 }
 
-/// Writes null if there is no number.
-void write_number(JsonWriter& json, std::string_view name, const std::optional<double>& number) {
-    json.key(name);
-    if (number) {
-        json.value(*number);
-    } else {
-        json.null();
-    }
-}
-
 void write_work(JsonWriter& json, const FrameWork& work) {
-    json.key("queries").value(std::uint64_t{work.queries});
-    json.key("vertices").value(std::uint64_t{work.vertices});
-    json.key("cells").value(work.cells);
-    json.key("found").value(work.found);
+    json.member("queries", work.queries);
+    json.member("vertices", work.vertices);
+    json.member("cells", work.cells);
+    json.member("found", work.found);
 }
 
 void write_technique(JsonWriter& json, const TechniqueTime& time) {
     json.key(time.technique);
     if (!time.refusal.empty()) {
-        json.begin_object().key("refused").value(std::string_view(time.refusal)).end_object();
+        json.begin_object().member("refused", time.refusal).end_object();
         return;
     }
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("technique").value(std::string_view(time.answered_by));
-    json.key("frames").value(std::uint64_t{time.frame_ms.count});
-    json.key("median_ms").value(time.frame_ms.median);
-    json.key("min_ms").value(time.frame_ms.least);
-    json.key("quartiles_ms").begin_array();
-    json.value(time.frame_ms.lower_quartile).value(time.frame_ms.upper_quartile).end_array();
-    write_number(json, "gpu_ms", time.device_ms());
+    json.member("technique", time.answered_by);
+    json.member("frames", time.frame_ms.count);
+    json.member("median_ms", time.frame_ms.median);
+    json.member("min_ms", time.frame_ms.least);
+    json.member("quartiles_ms",
+                std::array{time.frame_ms.lower_quartile, time.frame_ms.upper_quartile});
+    json.member("gpu_ms", time.device_ms());
     write_work(json, time.work);
     write_timings(json, time.timings);
     json.end_object();
@@ -91,12 +82,12 @@ void write_surroundings(std::ostream& stream, const Surroundings& surroundings) 
 }
 
 void write_surroundings(JsonWriter& json, const Surroundings& surroundings) {
-    json.key("commit").value(std::string_view(surroundings.machine.commit));
-    json.key("date").value(std::string_view(surroundings.machine.date));
-    json.key("processor").value(std::string_view(surroundings.machine.processor));
-    json.key("cores").value(std::uint64_t{surroundings.machine.cores});
-    json.key("device").value_or_null(surroundings.device);
-    json.key("driver").value(std::string_view(surroundings.driver));
+    json.member("commit", surroundings.machine.commit);
+    json.member("date", surroundings.machine.date);
+    json.member("processor", surroundings.machine.processor);
+    json.member("cores", surroundings.machine.cores);
+    json.member("device", surroundings.device, !surroundings.device.empty());
+    json.member("driver", surroundings.driver);
 }
 
 TextTable::TextTable(std::ostream& stream, const Surroundings& surroundings) : stream_(stream) {
@@ -159,22 +150,19 @@ void write_table_json(std::ostream& stream, std::span<const RowTimes> table,
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     write_surroundings(json, surroundings);
-    json.key("rows").begin_array(JsonWriter::Layout::lines);
-    for (const RowTimes& row : table) {
+    json.list("rows", table, [&json](const RowTimes& row) {
         json.begin_object(JsonWriter::Layout::lines);
-        json.key("name").value(std::string_view(row.name));
+        json.member("name", row.name);
         write_work(json, work_of_row(row));
         json.key("techniques").begin_object(JsonWriter::Layout::lines);
         for (const TechniqueTime& time : row.techniques) {
             write_technique(json, time);
         }
         json.end_object();
-        write_number(json, "automatic_to_best", row.automatic_to_best());
-        write_number(json, "automatic_to_best_least",
-                     row.automatic_to_best(&benchmark::Spread::least));
+        json.member("automatic_to_best", row.automatic_to_best());
+        json.member("automatic_to_best_least", row.automatic_to_best(&benchmark::Spread::least));
         json.end_object();
-    }
-    json.end_array();
+    });
     json.end_object();
     stream << '\n';
 }

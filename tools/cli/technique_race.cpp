@@ -143,8 +143,11 @@ std::optional<double> RowTimes::automatic_to_best(double benchmark::Spread::*of)
 
 TechniqueRace::TechniqueRace(const Settings& settings) {
     for (const std::string_view name : technique_names) {
-        Runner runner{
-            std::string(name), parse_technique(std::string(name), "standard table"), {}, {}, {}};
+        Runner runner{std::string(name),
+                      parse_name<Technique>(std::string(name), "standard table"),
+                      {},
+                      {},
+                      {}};
         AskedTechniques asked;
         asked.add(runner.technique);
         Settings with = settings;

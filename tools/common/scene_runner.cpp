@@ -18,12 +18,12 @@
 namespace nearfield::tools {
 
 std::optional<Technique> parse_technique_option(const std::optional<std::string>& name) {
-    return name ? std::optional(parse_technique(*name, "--technique")) : std::nullopt;
+    return name ? std::optional(parse_name<Technique>(*name, "--technique")) : std::nullopt;
 }
 
 void set_technique(Scene& scene, std::optional<Technique> technique) {
     for (SceneQuery& query : scene.queries) {
-        query.request.technique = technique.value_or(query.request.technique);
+        query.request.technique = technique ? technique : query.request.technique;
         if (query.world) {
             query.world->technique = technique.value_or(query.world->technique);
         }

@@ -4,6 +4,7 @@
 
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_document.hpp>
+#include <tools/io/names.hpp>
 #include <tools/io/number_table.hpp>
 
 #include <algorithm>
@@ -72,11 +73,10 @@ std::size_t find_entry(const std::vector<Entry>& entries, const JsonPlace& place
     return *found;
 }
 
-/// Parses a name with one of the command line's parsers; its errors name the place.
-template <class Parse>
-auto parse_member(const JsonPlace& place, const std::string& key, Parse parse) {
-    const JsonPlace member = place.member(key);
-    return parse(member.string(), member.text());
+/// The value that the string at a place names.
+template <class Value>
+[[nodiscard]] Value read_name(const JsonPlace& place) {
+    return parse_name<Value>(place.string(), place.text());
 }
 
 }  // namespace nearfield::tools

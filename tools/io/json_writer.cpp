@@ -91,7 +91,7 @@ JsonWriter& JsonWriter::value(double number) {
     return *this;
 }
 
-JsonWriter& JsonWriter::value(std::uint64_t number) {
+JsonWriter& JsonWriter::whole(std::uint64_t number) {
     separate();
     stream_ << number;
     return *this;
@@ -113,14 +113,15 @@ JsonWriter& JsonWriter::value(Vector2 point) {
     return begin_array().value(point.x).value(point.y).end_array();
 }
 
+JsonWriter& JsonWriter::value(Feature feature) {
+    const bool is_edge = feature.kind == Feature::Kind::edge;
+    return begin_object().member(is_edge ? "edge" : "vertex", feature.index).end_object();
+}
+
 JsonWriter& JsonWriter::null() {
     separate();
     stream_ << "null";
     return *this;
-}
-
-JsonWriter& JsonWriter::value_or_null(std::string_view text) {
-    return text.empty() ? null() : value(text);
 }
 
 void JsonWriter::write_text(std::string_view text) {

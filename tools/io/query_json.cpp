@@ -9,195 +9,132 @@
 namespace nearfield::tools {
 namespace {
 
-void write_feature(JsonWriter& json, Feature feature) {
-    json.begin_object();
-    json.key(feature.kind == Feature::Kind::edge ? "edge" : "vertex");
-    json.value(std::uint64_t{feature.index}).end_object();
-}
-
 void write_regions(JsonWriter& json, const ResultSummary& summary) {
-    json.key("regions").begin_array(JsonWriter::Layout::lines);
-    for (const Region& region : summary.regions) {
+    json.list("regions", summary.regions, [&json](const Region& region) {
         json.begin_object();
-        json.key("min").value(region.min).key("max").value(region.max);
-        json.key("width").value(std::uint64_t{region.width});
-        json.key("height").value(std::uint64_t{region.height});
-        json.end_object();
-    }
-    json.end_array();
+        json.member("min", region.min).member("max", region.max);
+        json.member("width", region.width).member("height", region.height).end_object();
+    });
 }
 
 void write_tiles(JsonWriter& json, const std::vector<TileReport>& tiles) {
-    json.key("tiles").begin_array(JsonWriter::Layout::lines);
-    for (const TileReport& tile : tiles) {
-        json.begin_object();
-        json.key("technique").value(to_string(tile.technique));
-        json.key("side").value(tile.side == Side::a ? "a" : "b");
-        json.key("min").value(tile.min).key("max").value(tile.max);
-        json.key("width").value(std::uint64_t{tile.width});
-        json.key("height").value(std::uint64_t{tile.height});
-        json.key("tile_batch").value(std::uint64_t{tile.tile_batch});
-        json.key("x").value(std::uint64_t{tile.x}).key("y").value(std::uint64_t{tile.y});
-        json.end_object();
-    }
-    json.end_array();
+    json.list("tiles", tiles, [&json](const TileReport& tile) {
+        json.begin_object().member("technique", to_string(tile.technique));
+        json.member("side", tile.side == Side::a ? "a" : "b");
+        json.member("min", tile.min).member("max", tile.max);
+        json.member("width", tile.width).member("height", tile.height);
+        json.member("tile_batch", tile.tile_batch);
+        json.member("x", tile.x).member("y", tile.y).end_object();
+    });
 }
 
 void write_result(JsonWriter& json, const PenetrationResult& result) {
-    json.key("count").value(std::uint64_t{result.count});
-    json.key("deepest");
+    json.member("count", result.count).key("deepest");
     if (result.count == 0) {
         json.null();
     } else {
-        json.begin_object().key("point").value(result.deepest.position);
-        json.key("depth").value(result.deepest.depth);
-        json.key("direction").value(result.deepest.direction).end_object();
+        json.begin_object().member("point", result.deepest.position);
+        json.member("depth", result.deepest.depth);
+        json.member("direction", result.deepest.direction).end_object();
     }
-    json.key("records").begin_array(JsonWriter::Layout::lines);
-    for (const PenetratingPoint& record : result.points) {
-        json.begin_object().key("point").value(record.position);
-        json.key("depth").value(record.depth).key("direction").value(record.direction);
-        json.key("nearest").value(record.nearest).key("feature");
-        write_feature(json, record.feature);
-        json.key("unique").value(record.unique).end_object();
-    }
-    json.end_array();
+    json.list("records", result.points, [&json](const PenetratingPoint& record) {
+        json.begin_object().member("point", record.position);
+        json.member("depth", record.depth).member("direction", record.direction);
+        json.member("nearest", record.nearest).member("feature", record.feature);
+        json.member("unique", record.unique).end_object();
+    });
 }
 
 void write_result(JsonWriter& json, const IntersectionResult& result) {
-    json.key("kind").value(name_of(result.kind));
-    json.key("strategy").value(name_of(result.strategy));
-    json.key("count").value(result.count);
-    json.key("area").value(result.area);
-    json.key("box");
+    json.member("kind", name_of(result.kind)).member("strategy", name_of(result.strategy));
+    json.member("count", result.count).member("area", result.area).key("box");
     if (result.count == 0) {
         json.null();
     } else {
-        json.begin_object().key("min").value(result.box.min);
-        json.key("max").value(result.box.max).end_object();
+        json.begin_object().member("min", result.box.min);
+        json.member("max", result.box.max).end_object();
     }
-    json.key("samples").begin_array(JsonWriter::Layout::lines);
-    for (const IntersectionSample& sample : result.samples) {
-        json.value(sample.position);
-    }
-    json.end_array();
+    json.list("samples", result.samples,
+              [&json](const IntersectionSample& sample) { json.value(sample.position); });
     if (result.kind == IntersectionKind::volume_volume) {
         return;
     }
     json.key("edges").begin_array();
     for (const IntersectionSample& sample : result.samples) {
-        if (sample.edge == IntersectionSample::no_edge) {
-            json.null();
-        } else {
-            json.value(std::uint64_t{sample.edge});
-        }
+        const bool has_edge = sample.edge != IntersectionSample::no_edge;
+        json.value(has_edge ? std::optional(sample.edge) : std::nullopt);
     }
     json.end_array();
 }
 
 void write_result(JsonWriter& json, const DistanceFieldResult& result) {
-    json.key("origin").value(result.origin);
-    json.key("width").value(std::uint64_t{result.width});
-    json.key("height").value(std::uint64_t{result.height});
+    json.member("origin", result.origin);
+    json.member("width", result.width).member("height", result.height);
     if (result.points.empty()) {
         return;
     }
-    json.key("points").begin_array(JsonWriter::Layout::lines);
-    for (const FieldPoint& point : result.points) {
-        json.begin_object().key("point").value(point.position);
-        json.key("distance").value(point.distance).key("error_bound").value(point.error_bound);
-        json.key("inside").value(point.inside).key("gradient").value(point.gradient);
-        json.key("feature");
-        write_feature(json, point.feature);
-        json.key("unique").value(point.unique).end_object();
-    }
-    json.end_array();
+    json.list("points", result.points, [&json](const FieldPoint& point) {
+        json.begin_object().member("point", point.position);
+        json.member("distance", point.distance).member("error_bound", point.error_bound);
+        json.member("inside", point.inside).member("gradient", point.gradient);
+        json.member("feature", point.feature).member("unique", point.unique).end_object();
+    });
 }
 
 /// The methods that made a field, if they were requested.
 void write_methods(JsonWriter& json, const QueryRequest& request,
                    const DistanceFieldResult& result) {
-    json.key("sign").value(name_of(request.sign));
+    json.member("sign", name_of(request.sign.value_or(SignEncoding::stencil)));
     if (request.gradients || !request.at.empty()) {
-        json.key("gradient").value(name_of(request.gradient));
-        json.key("gradient_error_bound").value(result.gradient_error_bound);
-        if (request.gradient == GradientMethod::blended) {
-            json.key("gradient_format").value(result.gradient_format);
+        const GradientMethod method = request.gradient.value_or(GradientMethod::analytic);
+        json.member("gradient", name_of(method));
+        json.member("gradient_error_bound", result.gradient_error_bound);
+        if (method == GradientMethod::blended) {
+            json.member("gradient_format", result.gradient_format);
         }
     }
 }
 
 void write_contact(JsonWriter& json, const ContactPoint& contact) {
-    json.begin_object().key("point").value(contact.position);
-    json.key("normal").value(contact.normal).key("distance").value(contact.distance);
-    json.key("nearest").value(contact.nearest).key("feature");
-    write_feature(json, contact.feature);
-    json.key("on").value(contact.on == Side::a ? "a" : "b");
-    json.key("inside").value(contact.inside).key("unique").value(contact.unique).end_object();
+    json.begin_object().member("point", contact.position);
+    json.member("normal", contact.normal).member("distance", contact.distance);
+    json.member("nearest", contact.nearest).member("feature", contact.feature);
+    json.member("on", contact.on == Side::a ? "a" : "b");
+    json.member("inside", contact.inside).member("unique", contact.unique).end_object();
 }
 
 void write_result(JsonWriter& json, const ContactResult& result) {
-    json.key("count").value(std::uint64_t{result.count});
-    json.key("manifold").begin_array(JsonWriter::Layout::lines);
-    for (const ContactCluster& cluster : result.manifold) {
-        json.begin_object().key("first").value(cluster.first).key("last").value(cluster.last);
-        json.key("normal").value(cluster.normal);
-        json.key("count").value(std::uint64_t{cluster.count}).key("extreme");
+    json.member("count", result.count);
+    json.list("manifold", result.manifold, [&json](const ContactCluster& cluster) {
+        json.begin_object().member("first", cluster.first).member("last", cluster.last);
+        json.member("normal", cluster.normal).member("count", cluster.count).key("extreme");
         write_contact(json, cluster.extreme);
         json.end_object();
-    }
-    json.end_array();
-    json.key("contacts").begin_array(JsonWriter::Layout::lines);
-    for (const ContactPoint& contact : result.points) {
-        write_contact(json, contact);
-    }
-    json.end_array();
+    });
+    json.list("contacts", result.points,
+              [&json](const ContactPoint& contact) { write_contact(json, contact); });
 }
 
-/// Writes null at distance 0, because then there is no direction.
-void write_direction(JsonWriter& json, double distance, Vector2 direction) {
-    json.key("direction");
-    if (distance > 0.0) {
-        json.value(direction);
-    } else {
-        json.null();
-    }
-}
-
-/// Writes null at distance 0.
+/// Writes the direction and the features of a pair of points, which are null at distance 0.
 template <class Result>
-void write_feature_pair(JsonWriter& json, const Result& result, double distance) {
-    for (const auto& [key, feature] :
-         {std::pair{"feature_a", result.feature_a}, std::pair{"feature_b", result.feature_b}}) {
-        json.key(key);
-        if (distance > 0.0) {
-            write_feature(json, feature);
-        } else {
-            json.null();
-        }
-    }
-}
-
-template <class Result>
-void write_features(JsonWriter& json, const Result& result) {
-    write_feature_pair(json, result, result.distance);
-    json.key("unique").value(result.unique);
-    json.key("sampled_distance").value(result.sampled_distance);
+void write_pair(JsonWriter& json, const Result& result, double distance) {
+    json.member("direction", result.direction, distance > 0.0);
+    json.member("feature_a", result.feature_a, distance > 0.0);
+    json.member("feature_b", result.feature_b, distance > 0.0);
 }
 
 void write_result(JsonWriter& json, const ClosestPointResult& result) {
-    json.key("point").value(result.point);
-    json.key("distance").value(result.distance);
-    json.key("nearest").value(result.nearest);
-    write_direction(json, result.distance, result.direction);
-    write_features(json, result);
+    json.member("point", result.point).member("distance", result.distance);
+    json.member("nearest", result.nearest);
+    write_pair(json, result, result.distance);
+    json.member("unique", result.unique).member("sampled_distance", result.sampled_distance);
 }
 
 void write_result(JsonWriter& json, const SeparationResult& result) {
-    json.key("distance").value(result.distance);
-    json.key("point_a").value(result.point_a).key("point_b").value(result.point_b);
-    write_direction(json, result.distance, result.direction);
-    write_features(json, result);
+    json.member("distance", result.distance);
+    json.member("point_a", result.point_a).member("point_b", result.point_b);
+    write_pair(json, result, result.distance);
+    json.member("unique", result.unique).member("sampled_distance", result.sampled_distance);
 }
 
 /// Only the members common to all answers.
@@ -205,46 +142,36 @@ void write_result(JsonWriter& /*json*/, const IntersectionTestResult& /*result*/
 
 void write_pose(JsonWriter& json, std::string_view key, const Pose& pose) {
     constexpr double degrees = 180.0 / std::numbers::pi;
-    json.key(key).begin_object().key("translation").value(pose.translation);
-    json.key("degrees").value(pose.angle * degrees).end_object();
+    json.key(key).begin_object().member("translation", pose.translation);
+    json.member("degrees", pose.angle * degrees).end_object();
 }
 
 void write_result(JsonWriter& json, const TimeOfImpactResult& result) {
-    json.key("state").value(name_of(result.state));
-    json.key("time").value(result.time);
-    json.key("time_error_bound").value(result.time_error_bound);
+    json.member("state", name_of(result.state));
+    json.member("time", result.time);
+    json.member("time_error_bound", result.time_error_bound);
     write_pose(json, "pose_a", result.pose_a);
     write_pose(json, "pose_b", result.pose_b);
-    json.key("distance").value(result.distance);
-    json.key("least_distance").value(result.min_distance);
-    json.key("point_a").value(result.point_a).key("point_b").value(result.point_b);
-    write_direction(json, result.distance, result.direction);
-    write_feature_pair(json, result, result.distance);
-    json.key("steps").value(std::uint64_t{result.steps});
+    json.member("distance", result.distance);
+    json.member("least_distance", result.min_distance);
+    json.member("point_a", result.point_a).member("point_b", result.point_b);
+    write_pair(json, result, result.distance);
+    json.member("steps", result.steps);
 }
 
 void write_result(JsonWriter& json, const SeparationVectorResult& result) {
-    json.key("vector").value(result.vector);
-    json.key("length").value(result.length);
-    json.key("lower_bound").value(result.lower_bound);
-    json.key("work").value(result.work);
+    json.member("vector", result.vector);
+    json.member("length", result.length);
+    json.member("lower_bound", result.lower_bound);
+    json.member("work", result.work);
 }
 
 void write_result(JsonWriter& json, const ContainmentResult& result) {
-    json.key("inside").value(result.inside);
-    json.key("clearance").value(result.clearance);
-    for (const auto& [key, point] :
-         {std::pair{"point_a", result.point_a}, std::pair{"point_b", result.point_b}}) {
-        json.key(key);
-        if (result.inside) {
-            json.value(point);
-        } else {
-            json.null();
-        }
-    }
-    write_direction(json, result.clearance, result.direction);
-    write_feature_pair(json, result, result.clearance);
-    json.key("unique").value(result.unique);
+    json.member("inside", result.inside).member("clearance", result.clearance);
+    json.member("point_a", result.point_a, result.inside);
+    json.member("point_b", result.point_b, result.inside);
+    write_pair(json, result, result.clearance);
+    json.member("unique", result.unique);
 }
 
 }  // namespace
@@ -256,16 +183,20 @@ void write_timings(JsonWriter& json, const Timings& timings) {
           std::pair{"record", timings.record}, std::pair{"device", timings.device},
           std::pair{"decode", timings.decode}}) {
         if (milliseconds != 0.0) {
-            json.key(name).value(milliseconds);
+            json.member(name, milliseconds);
         }
     }
-    json.key("total").value(timings.total);
+    json.member("total", timings.total);
     if (!timings.passes.empty()) {
-        json.key("passes").begin_object();
-        for (const PassTime& pass : timings.passes) {
-            json.key(pass.name).value(pass.milliseconds);
-        }
-        json.end_object();
+        write_passes(json, "passes", timings.passes);
+    }
+    json.end_object();
+}
+
+void write_passes(JsonWriter& json, std::string_view name, std::span<const PassTime> passes) {
+    json.key(name).begin_object();
+    for (const PassTime& pass : passes) {
+        json.member(pass.name, pass.milliseconds);
     }
     json.end_object();
 }
@@ -274,38 +205,31 @@ namespace {
 
 void write_localization(JsonWriter& json, const LocalizationStatistics& statistics) {
     json.key("localization").begin_object();
-    json.key("nodes_evaluated").value(statistics.nodes_evaluated);
-    json.key("pairs_rejected").value(statistics.pairs_rejected);
-    json.key("edges_kept").value(statistics.edges_kept).end_object();
+    json.member("nodes_evaluated", statistics.nodes_evaluated);
+    json.member("pairs_rejected", statistics.pairs_rejected);
+    json.member("edges_kept", statistics.edges_kept).end_object();
 }
 
 /// Writes the time of one query of a scene.
 void write_time(JsonWriter& json, const QueryTime& time) {
     json.key("time_ms").begin_object();
-    json.key("plan").value(time.plan);
-    json.key("answer").value(time.answer);
-    json.key("device");
-    if (time.device) {
-        json.value(*time.device);
-    } else {
-        json.null();
-    }
-    json.end_object();
+    json.member("plan", time.plan).member("answer", time.answer);
+    json.member("device", time.device).end_object();
 }
 
 /// Writes the members of an answer, alone or in a scene, except device and timings.
 void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult& result) {
     const ResultSummary& summary = summary_of(result);
-    json.key("query").value(name_of(request.type));
+    json.member("query", name_of(request.type));
     if (has_tolerance(request.type)) {
-        json.key("tolerance").value(summary.tolerance);
+        json.member("tolerance", summary.tolerance);
     }
-    json.key("error_bound").value(summary.error_bound);
+    json.member("error_bound", summary.error_bound);
     if (is_sampled(request.type)) {
-        json.key("cell").value(summary.cell);
+        json.member("cell", summary.cell);
     }
-    json.key("intersects").value(summary.intersects);
-    json.key("technique").value(to_string(summary.technique));
+    json.member("intersects", summary.intersects);
+    json.member("technique", to_string(summary.technique));
     write_localization(json, summary.localization);
     if (const auto* field = std::get_if<DistanceFieldResult>(&result)) {
         write_methods(json, request, *field);
@@ -319,7 +243,7 @@ void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult
 void write_query_json(std::ostream& stream, const Answer& answer) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("device").value_or_null(answer.device);
+    json.member("device", answer.device, !answer.device.empty());
     write_timings(json, answer.timings);
     write_answer(json, answer.request, answer.result);
     if (answer.tiles != nullptr) {
@@ -334,18 +258,17 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
                       std::string_view technique) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("device").value_or_null(device);
-    json.key("technique").value(technique);
+    json.member("device", device, !device.empty());
+    json.member("technique", technique);
     write_timings(json, timings);
-    json.key("results").begin_array(JsonWriter::Layout::lines);
-    for (const SceneAnswer& answer : answers) {
+    json.list("results", answers, [&json](const SceneAnswer& answer) {
         json.begin_object(JsonWriter::Layout::lines);
-        if (!find_world_query_type(answer.kind)) {
-            json.key("a").value_or_null(answer.a);
-            json.key("b").value_or_null(answer.b);
+        if (!find_named<WorldQueryType>(answer.kind)) {
+            json.member("a", answer.a, !answer.a.empty());
+            json.member("b", answer.b, !answer.b.empty());
         }
         const Status& status = summary_of(answer.result).status;
-        json.key("status").value(to_string(status.code()));
+        json.member("status", to_string(status.code()));
         if (answer.world != nullptr) {
             write_world_answer(json, *answer.world);
         } else if (status.ok()) {
@@ -354,12 +277,12 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
                 write_time(json, *answer.time);
             }
         } else {
-            json.key("query").value_or_null(answer.kind);
-            json.key("message").value(std::string_view(full_message(status)));
+            json.member("query", answer.kind, !answer.kind.empty());
+            json.member("message", full_message(status));
         }
         json.end_object();
-    }
-    json.end_array().end_object();
+    });
+    json.end_object();
     stream << '\n';
 }
 

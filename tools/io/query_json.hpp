@@ -25,4 +25,7 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
 /// place.
 void write_timings(JsonWriter& json, const Timings& timings);
 
+/// Writes a member of an object that is open: the time of each pass by its name.
+void write_passes(JsonWriter& json, std::string_view name, std::span<const PassTime> passes);
+
 }  // namespace nearfield::tools

@@ -5,9 +5,9 @@
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 
+#include <tools/io/names.hpp>
+
 #include <optional>
-#include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,19 +32,19 @@ enum class FieldPicture { field, voronoi, gradient };
 /// The options of one query from the command line or a scene: everything except its two shapes.
 struct QueryRequest {
     QueryType type = QueryType::penetration;
-    double tolerance = 0.0;  ///< 0 where none is given and none is needed
-    Technique technique = Technique::automatic;
-    PenetrationPoints points = PenetrationPoints::boundary;         ///< for penetration
-    IntersectionKind kind = IntersectionKind::volume_volume;        ///< for intersection
-    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< for intersection
+    double tolerance = 0.0;              ///< 0 where none is given and none is needed
+    std::optional<Technique> technique;  ///< see technique_of()
+    PenetrationPoints points = PenetrationPoints::boundary;   ///< for penetration
+    IntersectionKind kind = IntersectionKind::volume_volume;  ///< for intersection
+    std::optional<IntersectionStrategy> strategy;             ///< for intersection
     bool records = true;  ///< for penetration, intersection and contacts
     /// For contacts (default: the tolerance) and time-of-impact (default: 0).
     std::optional<double> contact_distance;
     ContactNormals normals = ContactNormals::analytic;  ///< for contacts
     // These are for distance-field.
     std::optional<Rectangle> rectangle;
-    SignEncoding sign = SignEncoding::stencil;
-    GradientMethod gradient = GradientMethod::analytic;
+    std::optional<SignEncoding> sign;
+    std::optional<GradientMethod> gradient;
     bool values = true;
     bool features = false;
     bool gradients = false;
@@ -75,29 +75,85 @@ struct QueryRequest {
            type == QueryType::closest_point;
 }
 
-/// The names of the command line and of scenes. Parsing throws InputError with a text that says
-/// what there is to choose from; `what` says where the name stands ("--kind").
-/// `others`: further names that the message lists.
-[[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what,
-                                         std::span<const std::string_view> others = {});
-[[nodiscard]] PenetrationPoints parse_points(const std::string& name, const std::string& what);
-[[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);
-[[nodiscard]] ContactNormals parse_normals(const std::string& name, const std::string& what);
-[[nodiscard]] IntersectionStrategy parse_strategy(const std::string& name, const std::string& what);
-[[nodiscard]] SignEncoding parse_sign(const std::string& name, const std::string& what);
-[[nodiscard]] GradientMethod parse_gradient(const std::string& name, const std::string& what);
-/// odd-even, nonzero, positive or union
-[[nodiscard]] FillRule parse_fill_rule(const std::string& name, const std::string& what);
-[[nodiscard]] FieldPicture parse_picture(const std::string& name, const std::string& what);
-[[nodiscard]] std::string_view name_of(QueryType type) noexcept;
-[[nodiscard]] std::string_view name_of(SignEncoding encoding) noexcept;
-[[nodiscard]] std::string_view name_of(GradientMethod method) noexcept;
-[[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
-[[nodiscard]] std::string_view name_of(IntersectionStrategy strategy) noexcept;
-[[nodiscard]] std::string_view name_of(FillRule rule) noexcept;
-[[nodiscard]] std::string_view name_of(ImpactState state) noexcept;
+template <>
+inline constexpr auto names<QueryType> = std::to_array<NamedValue<QueryType>>({
+    {"penetration", QueryType::penetration},
+    {"intersection", QueryType::intersection},
+    {"distance-field", QueryType::distance_field},
+    {"contacts", QueryType::contacts},
+    {"closest-point", QueryType::closest_point},
+    {"separation", QueryType::separation},
+    {"intersection-test", QueryType::intersection_test},
+    {"time-of-impact", QueryType::time_of_impact},
+    {"separation-vector", QueryType::separation_vector},
+    {"containment", QueryType::containment},
+});
+template <>
+inline constexpr auto names<Technique> = std::to_array<NamedValue<Technique>>({
+    {"automatic", Technique::automatic},
+    {"raster", Technique::raster},
+    {"compute", Technique::compute},
+    {"cpu", Technique::cpu},
+});
+template <>
+inline constexpr auto names<PenetrationPoints> = std::to_array<NamedValue<PenetrationPoints>>({
+    {"boundary", PenetrationPoints::boundary},
+    {"vertices", PenetrationPoints::vertices},
+});
+template <>
+inline constexpr auto names<IntersectionKind> = std::to_array<NamedValue<IntersectionKind>>({
+    {"boundary-boundary", IntersectionKind::boundary_boundary},
+    {"boundary-volume", IntersectionKind::boundary_volume},
+    {"volume-volume", IntersectionKind::volume_volume},
+});
+template <>
+inline constexpr auto names<ContactNormals> = std::to_array<NamedValue<ContactNormals>>({
+    {"analytic", ContactNormals::analytic},
+    {"gradient", ContactNormals::gradient},
+});
+template <>
+inline constexpr auto names<IntersectionStrategy> =
+    std::to_array<NamedValue<IntersectionStrategy>>({
+        {"stencil", IntersectionStrategy::stencil},
+        {"blend", IntersectionStrategy::blend},
+        {"logic-op", IntersectionStrategy::logic_op},
+        {"depth", IntersectionStrategy::depth},
+    });
+template <>
+inline constexpr auto names<SignEncoding> = std::to_array<NamedValue<SignEncoding>>({
+    {"stencil", SignEncoding::stencil},
+    {"color", SignEncoding::color},
+    {"feature-bit", SignEncoding::feature_bit},
+});
+template <>
+inline constexpr auto names<GradientMethod> = std::to_array<NamedValue<GradientMethod>>({
+    {"analytic", GradientMethod::analytic},
+    {"central-differences", GradientMethod::central_differences},
+    {"blended", GradientMethod::blended},
+});
+template <>
+inline constexpr auto names<FillRule> = std::to_array<NamedValue<FillRule>>({
+    {"odd-even", FillRule::odd_even},
+    {"nonzero", FillRule::nonzero},
+    {"positive", FillRule::positive},
+    {"union", FillRule::union_of_parts},
+});
+template <>
+inline constexpr auto names<FieldPicture> = std::to_array<NamedValue<FieldPicture>>({
+    {"field", FieldPicture::field},
+    {"voronoi", FieldPicture::voronoi},
+    {"gradient", FieldPicture::gradient},
+});
+template <>
+inline constexpr auto names<ImpactState> = std::to_array<NamedValue<ImpactState>>({
+    {"separated", ImpactState::separated},
+    {"hit", ImpactState::hit},
+    {"intersecting-at-start", ImpactState::intersecting_at_start},
+    {"bound-not-reached", ImpactState::bound_not_reached},
+});
 
-[[nodiscard]] Technique parse_technique(const std::string& name, const std::string& what);
+/// The technique that is asked for; raster where none is, but a way of drawing.
+[[nodiscard]] Technique technique_of(const QueryRequest& request) noexcept;
 
 /// Adds a request between two instances to a batch. The request must outlive the batch's run. The
 /// result has the same index among the results as the query in the batch.

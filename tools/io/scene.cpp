@@ -3,8 +3,8 @@
 #include <tools/io/json_document.hpp>
 #include <tools/io/json_members.hpp>
 #include <tools/io/outline.hpp>
+#include <tools/io/query_members.hpp>
 #include <tools/io/scene.hpp>
-#include <tools/io/scene_query.hpp>
 #include <tools/io/shape_rings.hpp>
 #include <tools/io/text_file.hpp>
 #include <tools/io/values.hpp>
@@ -36,7 +36,7 @@ Outline read_shape(const JsonPlace& place) {
         }
     } else {
         const LengthUnit unit =
-            place.has("units") ? parse_member(place, "units", parse_length_unit) : LengthUnit::user;
+            place.has("units") ? read_name<LengthUnit>(place.member("units")) : LengthUnit::user;
         outline = read_outline(read_path(place.member("file")), unit);
     }
     if (place.has("deviation")) {
@@ -84,8 +84,7 @@ double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& s
 OutlineTreatment read_treatment(const JsonPlace& place, EmptyRings empty) {
     OutlineTreatment treatment{.strict = empty == EmptyRings::kept};
     if (place.has("fill_rule")) {
-        const JsonPlace rule = place.member("fill_rule");
-        treatment.fill_rule = parse_fill_rule(rule.string(), rule.text());
+        treatment.fill_rule = read_name<FillRule>(place.member("fill_rule"));
     }
     if (place.has("clean_width")) {
         treatment.clean_width = read_above_zero(place.member("clean_width"));
@@ -161,7 +160,7 @@ void read_pairs(const JsonPlace& place, const Scene& scene, SceneQuery& query) {
 
 SceneQuery read_query(const JsonPlace& place, const Scene& scene, std::vector<std::string>& files) {
     SceneQuery query;
-    const auto type = find_world_query_type(place.require_object().member("query").string());
+    const auto type = find_named<WorldQueryType>(place.require_object().member("query").string());
     if (type) {
         query.world = read_world_request(place, *type, scene, files);
         return query;

@@ -265,7 +265,7 @@ void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answ
         }
         const Status& status = summary_of(answer.result).status;
         const std::string_view many =
-            find_world_query_type(answer.kind) ? "all instances" : "all pairs";
+            find_named<WorldQueryType>(answer.kind) ? "all instances" : "all pairs";
         write_item(
             stream, "query",
             std::string(answer.kind) + " of " +

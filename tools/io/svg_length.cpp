@@ -74,7 +74,7 @@ double parse_length(SvgText text, SvgAxis axis, const std::optional<SvgViewport>
     } else if (const std::string name = text.word(); name == "Q") {
         unit = 96.0 / 101.6;
     } else if (!name.empty()) {
-        const std::optional<LengthUnit> found = find_length_unit(name);
+        const std::optional<LengthUnit> found = find_named<LengthUnit>(name);
         if (!found || found == LengthUnit::user) {
             text.fail(start, "\"" + name + "\" is none of px, mm, cm, Q, in, pt, pc, %");
         }

@@ -50,7 +50,7 @@ double unit_of(SvgText& text, const std::string& function) {
         }
         text.fail(start, "\"" + unit + "\" is none of deg, grad, rad, turn");
     }
-    const std::optional<LengthUnit> length = find_length_unit(unit);
+    const std::optional<LengthUnit> length = find_named<LengthUnit>(unit);
     if (!function.starts_with("translate") || !length || length == LengthUnit::user) {
         text.fail(start, "\"" + unit + "\" is no unit of " + function);
     }

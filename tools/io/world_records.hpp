@@ -2,6 +2,8 @@
 
 #include <nearfield/result.hpp>
 
+#include <tools/io/json_writer.hpp>
+#include <tools/io/query_request.hpp>
 #include <tools/io/world_answer.hpp>
 
 #include <cstdint>
@@ -24,6 +26,32 @@ namespace nearfield::tools {
 [[nodiscard]] inline bool is_instance(InstanceHandle handle) noexcept {
     return !(handle == InstanceHandle{});
 }
+
+/// A row whose cells are members of a JSON object that is open. `InstanceOf` makes the value of an
+/// instance from its handle.
+template <class InstanceOf>
+class JsonRow {
+public:
+    JsonRow(JsonWriter& json, InstanceOf instance_of) : json_(json), instance_of_(instance_of) {}
+
+    void number(std::string_view name, double number) { json_.member(name, number); }
+    void truth(std::string_view name, bool truth) { json_.member(name, truth); }
+    void instance(std::string_view name, InstanceHandle handle) {
+        json_.member(name, instance_of_(handle));
+    }
+    void state(std::string_view name, ImpactState state) { json_.member(name, name_of(state)); }
+    void index(std::string_view name, std::uint32_t index, bool is_there) {
+        json_.member(name, index, is_there);
+    }
+    void point(std::string_view name, Vector2 point, bool is_there) {
+        json_.member(name, point, is_there);
+    }
+    void feature(std::string_view name, Feature feature) { json_.member(name, feature); }
+
+private:
+    JsonWriter& json_;
+    InstanceOf instance_of_;
+};
 
 template <class Row>
 void write_cells(Row& row, std::uint8_t intersects) {

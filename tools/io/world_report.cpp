@@ -14,47 +14,20 @@
 namespace nearfield::tools {
 namespace {
 
-/// A row whose cells are members of an object that is open.
-class JsonRow {
-public:
-    JsonRow(const WorldAnswer& answer, JsonWriter& json) : answer_(answer), json_(json) {}
-
-    void number(std::string_view name, double number) { json_.key(name).value(number); }
-    void truth(std::string_view name, bool truth) { json_.key(name).value(truth); }
-    void instance(std::string_view name, InstanceHandle handle) {
-        json_.key(name);
-        if (is_instance(handle)) {
-            json_.value(std::string_view(answer_.name_of(handle)));
-        } else {
-            json_.null();
-        }
-    }
-    void state(std::string_view name, ImpactState state) { json_.key(name).value(name_of(state)); }
-    void index(std::string_view name, std::uint32_t index, bool is_there) {
-        json_.key(name);
-        is_there ? json_.value(std::uint64_t{index}) : json_.null();
-    }
-    void point(std::string_view name, Vector2 point, bool is_there) {
-        json_.key(name);
-        is_there ? json_.value(point) : json_.null();
-    }
-    void feature(std::string_view name, Feature feature) {
-        json_.key(name).begin_object();
-        json_.key(feature.kind == Feature::Kind::edge ? "edge" : "vertex");
-        json_.value(std::uint64_t{feature.index}).end_object();
-    }
-
-private:
-    const WorldAnswer& answer_;
-    JsonWriter& json_;
-};
+/// A row of members; an instance is its name.
+auto row_of(JsonWriter& json, const WorldAnswer& answer) {
+    return JsonRow(json, [&answer](InstanceHandle handle) {
+        return is_instance(handle) ? std::optional<std::string_view>(answer.name_of(handle))
+                                   : std::nullopt;
+    });
+}
 
 template <class Record>
 void write_record(JsonWriter& json, const WorldAnswer& answer, const Record& record) {
     if constexpr (std::is_same_v<Record, std::uint8_t>) {
         json.value(record != 0);
     } else if constexpr (std::is_same_v<Record, InstanceHandle>) {
-        json.value(std::string_view(answer.name_of(record)));
+        json.value(answer.name_of(record));
     } else {
         if constexpr (std::is_same_v<Record, RayHit>) {
             if (!is_hit(record)) {
@@ -62,7 +35,7 @@ void write_record(JsonWriter& json, const WorldAnswer& answer, const Record& rec
                 return;
             }
         }
-        JsonRow row(answer, json);
+        auto row = row_of(json, answer);
         json.begin_object();
         write_cells(row, record);
         json.end_object();
@@ -121,9 +94,9 @@ std::optional<std::size_t> least_of(const WorldAnswer& answer,
 
 template <class Records>
 void write_counts(JsonWriter& json, const WorldAnswer& /*answer*/, const Records& found) {
-    json.key("hit_count").value(std::uint64_t{hit_count(found)});
+    json.member("hit_count", hit_count(found));
     if constexpr (has_lists<Records>) {
-        json.key("found").value(std::uint64_t{records_of(found).size()});
+        json.member("found", records_of(found).size());
     }
 }
 
@@ -135,24 +108,20 @@ void write_counts(JsonWriter& json, const WorldAnswer& answer,
         json.null();
         return;
     }
-    JsonRow row(answer, json);
-    json.begin_object().key("pose").value(std::uint64_t{*least});
+    auto row = row_of(json, answer);
+    json.begin_object().member("pose", *least);
     write_cells(row, clearances[*least]);
     json.end_object();
 }
 
 /// Where the records are, and what their numbers mean.
 void write_values(JsonWriter& json, const WorldAnswer& answer) {
-    json.key("values").value(std::string_view(answer.request->values));
-    json.key("columns").begin_array();
-    for (const std::string& name : world_columns(answer)) {
-        json.value(std::string_view(name));
-    }
-    json.end_array();
+    json.member("values", answer.request->values);
+    json.member("columns", world_columns(answer));
     if (is_npy(answer.request->values)) {
         json.key("instances").begin_array();
         for (const SceneInstance& instance : answer.scene->instances) {
-            json.value(std::string_view(instance.name));
+            json.value(instance.name);
         }
         json.end_array();
     }
@@ -190,13 +159,13 @@ void write_found(std::ostream& stream, const WorldAnswer& answer,
 
 void write_world_answer(JsonWriter& json, const WorldAnswer& answer) {
     const WorldRequest& request = *answer.request;
-    json.key("query").value(name_of(request.type));
-    json.key("technique").value(to_string(answering_technique(request)));
+    json.member("query", name_of(request.type));
+    json.member("technique", to_string(answering_technique(request)));
     if (request.shape) {
-        json.key("shape").value(std::string_view(answer.scene->shapes[*request.shape].name));
+        json.member("shape", answer.scene->shapes[*request.shape].name);
     }
-    json.key("against").value_or_null(request.against ? request.against->name : std::string());
-    json.key("count").value(std::uint64_t{request.size()});
+    json.member("against", request.against ? std::optional(request.against->name) : std::nullopt);
+    json.member("count", request.size());
     std::visit([&](const auto& found) { write_counts(json, answer, found); }, answer.records);
     if (!request.values.empty()) {
         write_values(json, answer);

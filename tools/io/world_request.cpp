@@ -18,14 +18,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<std::string_view, WorldQueryType>, 5> types{{
-    {"poses", WorldQueryType::poses},
-    {"nearest", WorldQueryType::nearest},
-    {"rays", WorldQueryType::rays},
-    {"cast", WorldQueryType::cast},
-    {"overlap", WorldQueryType::overlap},
-}};
-
 constexpr const char* point_form = "[x, y] (two numbers)";
 constexpr const char* pose_form = "[x, y, degrees] (three numbers)";
 constexpr const char* segment_form = "[x0, y0, x1, y1] (four numbers)";
@@ -65,7 +57,7 @@ public:
             request_.except = find_entry(scene_.instances, place_.member("except"), "instance");
         }
         if (place_.has("technique")) {
-            request_.technique = parse_member(place_, "technique", parse_technique);
+            request_.technique = read_name<Technique>(place_.member("technique"));
         }
         if (place_.has("records")) {
             request_.records = place_.member("records").boolean();
@@ -349,28 +341,12 @@ private:
 
 }  // namespace
 
-std::optional<WorldQueryType> find_world_query_type(std::string_view name) noexcept {
-    for (const auto& [text, type] : types) {
-        if (text == name) {
-            return type;
-        }
-    }
-    return std::nullopt;
-}
-
 std::vector<std::string_view> world_query_type_names() {
-    std::vector<std::string_view> names;
-    names.reserve(types.size());
-    for (const auto& [text, type] : types) {
-        names.push_back(text);
+    std::vector<std::string_view> all;
+    for (const auto& [text, type] : names<WorldQueryType>) {
+        all.push_back(text);
     }
-    return names;
-}
-
-std::string_view name_of(WorldQueryType type) noexcept {
-    return std::find_if(types.begin(), types.end(),
-                        [type](const auto& entry) { return entry.second == type; })
-        ->first;
+    return all;
 }
 
 WorldRequest read_world_request(const JsonPlace& place, WorldQueryType type, const Scene& scene,

@@ -5,6 +5,7 @@
 #include <nearfield/world.hpp>
 
 #include <tools/io/json_document.hpp>
+#include <tools/io/names.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -21,10 +22,16 @@ struct Scene;
 /// The kinds of queries that a scene asks of its instances as a whole.
 enum class WorldQueryType { poses, nearest, rays, cast, overlap };
 
-/// Parses the name of a kind; nothing if it is none of them.
-[[nodiscard]] std::optional<WorldQueryType> find_world_query_type(std::string_view name) noexcept;
+template <>
+inline constexpr auto names<WorldQueryType> = std::to_array<NamedValue<WorldQueryType>>({
+    {"poses", WorldQueryType::poses},
+    {"nearest", WorldQueryType::nearest},
+    {"rays", WorldQueryType::rays},
+    {"cast", WorldQueryType::cast},
+    {"overlap", WorldQueryType::overlap},
+});
+
 [[nodiscard]] std::vector<std::string_view> world_query_type_names();
-[[nodiscard]] std::string_view name_of(WorldQueryType type) noexcept;
 
 /// Instances that a query names together.
 struct InstanceGroup {

@@ -26,11 +26,10 @@ constexpr const char* peer_names[] = {"GEOS", "Boost", "Boost R-tree", "CGAL", "
 
 void write_spread(JsonWriter& json, std::string_view name, const benchmark::Spread& spread) {
     json.key(name).begin_object();
-    json.key("median").value(spread.median);
-    json.key("min").value(spread.least);
-    json.key("quartiles").begin_array();
-    json.value(spread.lower_quartile).value(spread.upper_quartile).end_array();
-    json.key("frames").value(std::uint64_t{spread.count});
+    json.member("median", spread.median);
+    json.member("min", spread.least);
+    json.member("quartiles", std::array{spread.lower_quartile, spread.upper_quartile});
+    json.member("frames", spread.count);
     json.end_object();
 }
 
@@ -46,16 +45,16 @@ void write_quickest(JsonWriter& json, std::string_view name, const std::optional
 
 void write_peer(JsonWriter& json, const PeerTimes& peer) {
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("how").value(std::string_view(peer.how));
-    json.key("exact").value(peer.exact);
-    json.key("signed").value(peer.has_sign);
+    json.member("how", peer.how);
+    json.member("exact", peer.exact);
+    json.member("signed", peer.has_sign);
     write_spread(json, "built_ms", peer.built_ms);
     write_spread(json, "kept_ms", peer.kept_ms);
     if (peer.exact) {
-        json.key("largest_difference").value(peer.largest_difference);
-        json.key("allowed").value(peer.allowed);
+        json.member("largest_difference", peer.largest_difference);
+        json.member("allowed", peer.allowed);
     } else {
-        json.key("error_in_cells").value(peer.error_in_cells);
+        json.member("error_in_cells", peer.error_in_cells);
     }
     json.end_object();
 }
@@ -123,16 +122,15 @@ void write_json(std::ostream& stream, std::span<const ProblemTimes> table,
                 const benchmark::Machine& machine, const std::string& device) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("commit").value(std::string_view(machine.commit));
-    json.key("date").value(std::string_view(machine.date));
-    json.key("processor").value(std::string_view(machine.processor));
-    json.key("device").value(std::string_view(device));
-    json.key("rows").begin_array(JsonWriter::Layout::lines);
-    for (const ProblemTimes& times : table) {
+    json.member("commit", machine.commit);
+    json.member("date", machine.date);
+    json.member("processor", machine.processor);
+    json.member("device", device);
+    json.list("rows", table, [&json](const ProblemTimes& times) {
         json.begin_object(JsonWriter::Layout::lines);
-        json.key("name").value(std::string_view(times.name));
-        json.key("queries").value(std::uint64_t{times.queries});
-        json.key("technique").value(std::string_view(times.technique));
+        json.member("name", times.name);
+        json.member("queries", times.queries);
+        json.member("technique", times.technique);
         write_spread(json, "nearfield_built_ms", times.built_ms);
         write_spread(json, "nearfield_kept_ms", times.kept_ms);
         json.key("peers").begin_object(JsonWriter::Layout::lines);
@@ -146,8 +144,7 @@ void write_json(std::ostream& stream, std::span<const ProblemTimes> table,
         write_quickest(json, "quickest_kept_to_nearfield", times.quickest(&PeerTimes::kept_ms),
                        times.kept_ms);
         json.end_object();
-    }
-    json.end_array();
+    });
     json.end_object();
     stream << '\n';
 }

@@ -51,16 +51,6 @@ const simulation::NamedClearanceScene* find_clearance_scene(const std::string& n
     return find_by_name(simulation::clearance_scenes(), name);
 }
 
-simulation::Response parse_response(const std::string& name) {
-    if (name == "penalty") {
-        return simulation::Response::penalty;
-    }
-    if (name == "backtracking") {
-        return simulation::Response::backtracking;
-    }
-    throw InputError("--response: \"" + name + "\" is none of penalty, backtracking");
-}
-
 View view_of(const Rectangle& world, double page_width) {
     // An even number of pixels, as videos require.
     const double height = 2.0 * std::round(0.5 * page_width * (world.max.y - world.min.y) /

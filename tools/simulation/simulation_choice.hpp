@@ -3,6 +3,7 @@
 #include <nearfield/context.hpp>
 
 #include <tools/drawing/view.hpp>
+#include <tools/io/names.hpp>
 #include <tools/simulation/clearance_scene.hpp>
 #include <tools/simulation/world.hpp>
 
@@ -21,8 +22,12 @@ namespace nearfield::tools {
 /// The scene of clearances with this name; null if it is another scene's.
 [[nodiscard]] const simulation::NamedClearanceScene* find_clearance_scene(const std::string& name);
 
-/// Parses the option --response. Throws InputError.
-[[nodiscard]] simulation::Response parse_response(const std::string& name);
+template <>
+inline constexpr auto names<simulation::Response> =
+    std::to_array<NamedValue<simulation::Response>>({
+        {"penalty", simulation::Response::penalty},
+        {"backtracking", simulation::Response::backtracking},
+    });
 
 /// The view of a part of the world on a page of this width in pixels; the height follows.
 [[nodiscard]] View view_of(const Rectangle& world, double page_width);

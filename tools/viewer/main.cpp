@@ -124,11 +124,13 @@ viewer::Wishes parse_wishes(const Arguments& arguments) {
         const simulation::Scene scene = tools::make_scene(arguments.scene, arguments.tolerance);
         wishes.choices.tolerance = arguments.tolerance ? scene.tolerance : 0.0;
     }
-    wishes.choices.response = tools::parse_response(arguments.response);
+    wishes.choices.response =
+        tools::parse_name<simulation::Response>(arguments.response, "--response");
     wishes.choices.technique =
         tools::parse_technique_option(arguments.technique).value_or(Technique::automatic);
     wishes.choices.hierarchy_height = arguments.height;
-    wishes.overlays.strategy = tools::parse_strategy(arguments.strategy, "--strategy");
+    wishes.overlays.strategy =
+        tools::parse_name<IntersectionStrategy>(arguments.strategy, "--strategy");
     wishes.overlays.field = parse_field(arguments.field);
     parse_show(arguments.show, wishes.overlays);
     return wishes;

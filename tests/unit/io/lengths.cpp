@@ -22,12 +22,12 @@ TEST(ToolsLengths, OfAnInchAreTheSameInEveryUnit) {
 TEST(ToolsLengths, HaveUnitsThatAreFoundByName) {
     const double inch = pixels_per(LengthUnit::inch);
     EXPECT_EQ(inch, 96.0);
-    EXPECT_NEAR(25.4 * pixels_per(parse_length_unit("mm", "--unit")), inch, 1e-12);
-    EXPECT_NEAR(2.54 * pixels_per(parse_length_unit("cm", "--unit")), inch, 1e-12);
-    EXPECT_NEAR(72.0 * pixels_per(parse_length_unit("pt", "--unit")), inch, 1e-12);
-    EXPECT_NEAR(6.0 * pixels_per(parse_length_unit("pc", "--unit")), inch, 1e-12);
-    EXPECT_EQ(pixels_per(parse_length_unit("px", "--unit")), 1.0);
-    EXPECT_EQ(pixels_per(parse_length_unit("user", "--unit")), 1.0);
+    EXPECT_NEAR(25.4 * pixels_per(parse_name<LengthUnit>("mm", "--unit")), inch, 1e-12);
+    EXPECT_NEAR(2.54 * pixels_per(parse_name<LengthUnit>("cm", "--unit")), inch, 1e-12);
+    EXPECT_NEAR(72.0 * pixels_per(parse_name<LengthUnit>("pt", "--unit")), inch, 1e-12);
+    EXPECT_NEAR(6.0 * pixels_per(parse_name<LengthUnit>("pc", "--unit")), inch, 1e-12);
+    EXPECT_EQ(pixels_per(parse_name<LengthUnit>("px", "--unit")), 1.0);
+    EXPECT_EQ(pixels_per(parse_name<LengthUnit>("user", "--unit")), 1.0);
 }
 
 }  // namespace

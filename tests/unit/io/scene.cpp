@@ -259,16 +259,17 @@ TEST(ToolsValues, TolerancesAndRectanglesAreChecked) {
 }
 
 TEST(ToolsRequest, WhatThisVersionLacksIsRefusedByName) {
-    EXPECT_EQ(input_error([] { return parse_query_type("depth", "query"); }),
+    EXPECT_EQ(input_error([] { return parse_name<QueryType>("depth", "query"); }),
               "query: \"depth\" is none of penetration, intersection, distance-field, contacts, "
               "closest-point, separation, intersection-test, time-of-impact, separation-vector, "
               "containment");
-    EXPECT_EQ(input_error([] { return parse_technique("gpu", "--technique"); }),
+    EXPECT_EQ(input_error([] { return parse_name<Technique>("gpu", "--technique"); }),
               "--technique: \"gpu\" is none of automatic, raster, compute, cpu");
-    EXPECT_EQ(input_error([] { return parse_strategy("blending", "--strategy"); }),
-              "--strategy: \"blending\" is none of stencil, blend, logic-op, depth");
-    EXPECT_EQ(parse_technique("cpu", "--technique"), Technique::cpu);
-    EXPECT_EQ(parse_technique("compute", "--technique"), Technique::compute);
+    EXPECT_EQ(
+        input_error([] { return parse_name<IntersectionStrategy>("blending", "--strategy"); }),
+        "--strategy: \"blending\" is none of stencil, blend, logic-op, depth");
+    EXPECT_EQ(parse_name<Technique>("cpu", "--technique"), Technique::cpu);
+    EXPECT_EQ(parse_name<Technique>("compute", "--technique"), Technique::compute);
 }
 
 }  // namespace
