@@ -6,7 +6,7 @@
 
 #include <tests/bench/take.hpp>
 #include <tests/support/outlines.hpp>
-#include <tools/benchmark/paper_scenes.hpp>
+#include <tools/benchmark/workloads.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <tools/simulation/deformable_body.hpp>
-#include <tools/simulation/gear_train.hpp>
 #include <tools/simulation/scenes.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <tests/simulation/simulation.hpp>
 #include <tests/support/degenerate_polygons.hpp>
 #include <tools/drawing/canvas.hpp>
-#include <tools/rendering/mesh.hpp>
+#include <tools/rendering/drawing.hpp>
 #include <tools/rendering/page.hpp>
 #include <tools/rendering/scene_picture.hpp>
 

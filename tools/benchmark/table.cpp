@@ -1,10 +1,5 @@
-#include <tools/benchmark/coast_lines.hpp>
-#include <tools/benchmark/crowds.hpp>
-#include <tools/benchmark/objects.hpp>
-#include <tools/benchmark/outlines.hpp>
-#include <tools/benchmark/paper_scenes.hpp>
-#include <tools/benchmark/questions.hpp>
 #include <tools/benchmark/table.hpp>
+#include <tools/benchmark/workloads.hpp>
 
 #include <cstddef>
 #include <utility>

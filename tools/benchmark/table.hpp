@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tools/io/input_error.hpp>
 #include <tools/io/scene.hpp>
 
 #include <functional>
@@ -16,5 +17,22 @@ struct Row {
 
 /// All rows in table order. Names are unique.
 [[nodiscard]] std::vector<Row> standard_table();
+
+/// The rows of a table whose names hold a text. Throws InputError, with all names, if there is
+/// none.
+template <class AnyRow>
+[[nodiscard]] std::vector<AnyRow> rows_with(const std::string& filter, std::vector<AnyRow> rows) {
+    std::string names;
+    for (const AnyRow& row : rows) {
+        names += "\n  " + row.name;
+    }
+    std::erase_if(rows,
+                  [&](const AnyRow& row) { return row.name.find(filter) == std::string::npos; });
+    if (rows.empty()) {
+        throw tools::InputError("--filter: no row of the table has \"" + filter +
+                                "\" in its name; there are:" + names);
+    }
+    return rows;
+}
 
 }  // namespace nearfield::benchmark

@@ -1,12 +1,11 @@
 #include <nearfield/context.hpp>
 
-#include <tools/benchmark/median_timings.hpp>
-#include <tools/benchmark/spread.hpp>
+#include <tools/benchmark/measuring.hpp>
 #include <tools/cli/bench.hpp>
 #include <tools/cli/gpu_table.hpp>
-#include <tools/cli/open_context.hpp>
 #include <tools/cli/paper_tables.hpp>
 #include <tools/cli/scene.hpp>
+#include <tools/cli/settings_options.hpp>
 #include <tools/cli/standard_table.hpp>
 #include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
@@ -14,15 +13,14 @@
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/input_error.hpp>
+#include <tools/io/output_file.hpp>
 #include <tools/io/query_json.hpp>
-#include <tools/io/report_target.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/summary.hpp>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <iostream>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -39,14 +37,12 @@ struct Measurement {
 };
 
 Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
-    const bool show_progress = isatty(STDERR_FILENO) == 1;
+    const StatusLine line;
     std::vector<double> frames_ms;
     std::vector<Timings> timings;
     const std::uint64_t all = std::uint64_t{arguments.warm_up} + arguments.frames;
     for (std::uint64_t frame = 0; frame < all; ++frame) {
-        if (show_progress) {
-            std::cerr << "\rframe " << frame + 1 << " of " << all << std::flush;
-        }
+        line.show("frame", frame + 1, all);
         stop_after_ctrl_c();
         const double milliseconds =
             runner.run_frame(arguments.keep ? FrameInput::poses : FrameInput::all);
@@ -55,9 +51,6 @@ Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
             frames_ms.push_back(milliseconds);
             timings.push_back(runner.timings());
         }
-    }
-    if (show_progress) {
-        std::cerr << '\n';
     }
     return {benchmark::spread_of(frames_ms), *std::max_element(frames_ms.begin(), frames_ms.end()),
             benchmark::median_timings(timings, timings.size()), runner.pair_count(),

@@ -7,7 +7,6 @@
 #include <tools/cli/info.hpp>
 #include <tools/cli/query.hpp>
 #include <tools/cli/query_options.hpp>
-#include <tools/cli/query_words.hpp>
 #include <tools/cli/scene.hpp>
 #include <tools/cli/settings_options.hpp>
 #include <tools/cli/simulate.hpp>

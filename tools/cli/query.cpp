@@ -2,8 +2,8 @@
 #include <nearfield/diagnostics.hpp>
 #include <nearfield/portable_math.hpp>
 
-#include <tools/cli/open_context.hpp>
 #include <tools/cli/query.hpp>
+#include <tools/cli/settings_options.hpp>
 #include <tools/common/add_shape.hpp>
 #include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
@@ -11,11 +11,11 @@
 #include <tools/io/input_error.hpp>
 #include <tools/io/npy.hpp>
 #include <tools/io/outline.hpp>
+#include <tools/io/output_file.hpp>
 #include <tools/io/query_json.hpp>
 #include <tools/io/query_request.hpp>
-#include <tools/io/report_target.hpp>
+#include <tools/io/shape_rings.hpp>
 #include <tools/io/summary.hpp>
-#include <tools/io/usual_tolerance.hpp>
 #include <tools/io/values.hpp>
 
 #include <algorithm>

@@ -1,18 +1,19 @@
 #include <nearfield/context.hpp>
 
-#include <tools/cli/open_context.hpp>
 #include <tools/cli/scene.hpp>
-#include <tools/cli/world_values_files.hpp>
+#include <tools/cli/settings_options.hpp>
 #include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/layout.hpp>
+#include <tools/io/number_table.hpp>
+#include <tools/io/output_file.hpp>
 #include <tools/io/query_json.hpp>
-#include <tools/io/report_target.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/summary.hpp>
+#include <tools/io/world_report.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -22,6 +23,48 @@
 #include <vector>
 
 namespace nearfield::tools {
+
+WorldValuesFiles::WorldValuesFiles(const Scene& scene, const std::optional<std::string>& json) {
+    std::vector<std::string> outputs;
+    if (json && *json != "-") {
+        outputs.push_back(*json);
+    }
+    std::vector<std::string> values;
+    for (const SceneQuery& query : scene.queries) {
+        if (query.problem.empty() && query.world && !query.world->values.empty()) {
+            values.push_back(query.world->values);
+        }
+    }
+    outputs.insert(outputs.end(), values.begin(), values.end());
+    require_different_files(scene.files, outputs);
+    for (const std::string& path : values) {
+        files_.try_emplace(path, path);
+    }
+}
+
+void WorldValuesFiles::write(std::span<const SceneAnswer> answers) {
+    for (const SceneAnswer& answer : answers) {
+        if (answer.world == nullptr || answer.world->request->values.empty()) {
+            continue;
+        }
+        File& file = files_.at(answer.world->request->values);
+        if (is_npy(answer.world->request->values)) {
+            write_world_npy(file.output.stream(), *answer.world);
+        } else {
+            write_world_csv(file.output.stream(), *answer.world);
+        }
+        file.is_written = true;
+    }
+}
+
+void WorldValuesFiles::commit() {
+    for (auto& [path, file] : files_) {
+        if (file.is_written) {
+            file.output.commit();
+        }
+    }
+}
+
 namespace {
 
 /// Lists what is wrong on the standard error; returns the exit status, that of bad input first.

@@ -1,8 +1,80 @@
 #include <tools/cli/settings_options.hpp>
+#include <tools/common/device_pair_runner.hpp>
+#include <tools/common/library_error.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/io/input_error.hpp>
+#include <tools/io/world_request.hpp>
+
+#include <algorithm>
+#include <iostream>
 
 namespace nearfield::tools {
+
+ThreadTeam::ThreadTeam(std::uint32_t count) {
+    for (std::uint32_t i = 1; i < count; ++i) {
+        threads_.emplace_back([this] { work(); });
+    }
+}
+
+ThreadTeam::~ThreadTeam() {
+    {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    }
+    begun_.notify_all();
+    for (std::thread& thread : threads_) {
+        thread.join();
+    }
+}
+
+JobSystem ThreadTeam::jobs() {
+    const auto threads = static_cast<std::uint32_t>(threads_.size()) + 1;
+    // Twice as many jobs as threads even out queries of different cost.
+    return {this, std::min(2 * threads, max_jobs),
+            [](void* user, std::uint32_t jobs, Job job, void* data) {
+                static_cast<ThreadTeam*>(user)->run(jobs, job, data);
+            }};
+}
+
+void ThreadTeam::run(std::uint32_t jobs, Job job, void* data) {
+    {
+        const std::lock_guard lock(mutex_);
+        job_ = job;
+        data_ = data;
+        count_ = jobs;
+        next_ = 0;
+        working_ = static_cast<std::uint32_t>(threads_.size());
+        ++round_;
+    }
+    begun_.notify_all();
+    take_jobs();
+    std::unique_lock lock(mutex_);
+    ended_.wait(lock, [this] { return working_ == 0; });
+}
+
+void ThreadTeam::take_jobs() {
+    for (std::uint32_t number = next_++; number < count_; number = next_++) {
+        job_(data_, number);
+    }
+}
+
+void ThreadTeam::work() {
+    std::uint64_t done = 0;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        begun_.wait(lock, [&] { return over_ || round_ != done; });
+        if (over_) {
+            return;
+        }
+        done = round_;
+        lock.unlock();
+        take_jobs();
+        lock.lock();
+        if (--working_ == 0) {
+            ended_.notify_one();
+        }
+    }
+}
 
 void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
     command
@@ -48,6 +120,43 @@ std::string memory_hint(const std::string& error) {
     return error.find(", more than the limit of ") == std::string::npos
                ? std::string()
                : "; --memory-limit sets the limit";
+}
+
+AskedTechniques techniques_of(const Scene& scene) {
+    AskedTechniques asked;
+    for (const SceneQuery& query : scene.queries) {
+        if (!query.problem.empty()) {
+            continue;
+        }
+        if (is_for_device_pairs(query)) {
+            asked.add(Technique::compute);
+        } else if (!query.world) {
+            asked.add(query.request);
+        } else if (technique_problem(*query.world).empty()) {
+            asked.add(answering_technique(*query.world));
+        }
+    }
+    return asked;
+}
+
+Context open_context(Settings settings, const AskedTechniques& asked) {
+    const bool automatic = asked.has(Technique::automatic);
+    const bool raster = asked.has(Technique::raster);
+    const bool compute = asked.has(Technique::compute);
+    if (!automatic && !raster && !compute) {
+        return take(Context::create_cpu(settings));
+    }
+    settings.techniques = {.raster = automatic || raster, .compute = automatic || compute};
+    settings.pipelines_on_demand = true;
+    Expected<Context> context = Context::create_headless({}, settings);
+    const StatusCode code = context.error().code();
+    if ((code == StatusCode::no_device || code == StatusCode::unsupported_device) && !raster &&
+        !compute) {
+        std::cerr << "nearfield: without a device, by the CPU alone: " << context.error().text()
+                  << '\n';
+        return take(Context::create_cpu(settings));
+    }
+    return take(std::move(context));
 }
 
 }  // namespace nearfield::tools

@@ -1,25 +1,315 @@
 #include <nearfield/context.hpp>
 
-#include <tools/cli/frame_output.hpp>
-#include <tools/cli/open_context.hpp>
+#include <CLI/CLI.hpp>
+#include <tools/benchmark/measuring.hpp>
+#include <tools/cli/settings_options.hpp>
 #include <tools/cli/simulate.hpp>
-#include <tools/cli/simulate_clearances.hpp>
-#include <tools/cli/simulation_report.hpp>
 #include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
+#include <tools/drawing/view.hpp>
+#include <tools/io/answer.hpp>
+#include <tools/io/frame_files.hpp>
 #include <tools/io/input_error.hpp>
-#include <tools/io/report_target.hpp>
+#include <tools/io/json_writer.hpp>
+#include <tools/io/output_file.hpp>
+#include <tools/io/summary.hpp>
+#include <tools/io/world_report.hpp>
+#include <tools/rendering/clearance_picture.hpp>
+#include <tools/rendering/page.hpp>
 #include <tools/rendering/scene_picture.hpp>
+#include <tools/simulation/clearance_scene.hpp>
 #include <tools/simulation/simulation_choice.hpp>
 #include <tools/simulation/world.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <ostream>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace nearfield::tools {
 namespace {
+
+using simulation::ClearanceFrame;
+
+/// The width of pictures and videos, pixels.
+constexpr double frame_width = 960.0;
+
+/// What paints pictures.
+struct PaintingDevice {
+    GpuInstance instance;
+    Gpu gpu{instance};
+};
+
+/// The pictures of a run, in files or a video, if any are requested, and the device that paints
+/// them.
+class FrameOutput {
+public:
+    /// Throws InputError if a file cannot be written, NoGpu if there is no device to paint on.
+    FrameOutput(const SimulateArguments& arguments, const View& view, double frame_time);
+
+    /// The device that paints; null if no picture is requested.
+    [[nodiscard]] const Gpu* gpu() const { return device_ ? &device_->gpu : nullptr; }
+
+    /// Paints a frame if it is requested. `draw` is called only then.
+    void add(std::uint32_t frame, const std::function<void(Drawing&)>& draw);
+    void finish();
+
+private:
+    const SimulateArguments& arguments_;
+    std::optional<FrameFiles> files_;
+    std::optional<VideoFile> video_;
+    std::optional<PaintingDevice> device_;
+    std::optional<OffscreenPage> page_;
+    Drawing drawing_;
+};
+
+FrameOutput::FrameOutput(const SimulateArguments& arguments, const View& view, double frame_time)
+    : arguments_(arguments) {
+    const auto width = static_cast<std::uint32_t>(view.page().max.x);
+    const auto height = static_cast<std::uint32_t>(view.page().max.y);
+    if (arguments.image) {
+        files_.emplace(*arguments.image);
+    }
+    if (arguments.video) {
+        video_.emplace(*arguments.video, width, height,
+                       static_cast<std::uint32_t>(std::round(1.0 / frame_time)));
+    }
+    if (files_ || video_) {
+        device_.emplace();
+        page_.emplace(device_->gpu, width, height);
+    }
+}
+
+void FrameOutput::add(std::uint32_t frame, const std::function<void(Drawing&)>& draw) {
+    const bool in_a_file = files_ && (frame % arguments_.every == 0 || frame == arguments_.frames);
+    if (!in_a_file && !video_) {
+        return;
+    }
+    drawing_.clear();
+    draw(drawing_);
+    const FrameImage image = page_->paint(drawing_);
+    if (in_a_file) {
+        files_->write(frame, png_of(image));
+    }
+    if (video_) {
+        video_->add(image.pixels);
+    }
+}
+
+void FrameOutput::finish() {
+    if (video_) {
+        video_->finish();
+    }
+}
+
+/// Runs frames 1, 2, ... until the last one or Ctrl-C, and shows the progress on a terminal;
+/// returns the exit status.
+int run_frames(std::uint32_t count, const std::function<void(std::uint32_t)>& run_frame) {
+    const StatusLine line;
+    for (std::uint32_t frame = 1; frame <= count; ++frame) {
+        line.show("frame", frame, count);
+        run_frame(frame);
+        if (was_ctrl_c_pressed()) {
+            break;
+        }
+    }
+    return was_ctrl_c_pressed() ? exit_status::stopped : exit_status::done;
+}
+
+/// What a run of a scene of clearances asked and found, at least one frame.
+struct ClearanceReport {
+    const simulation::ClearanceScene& scene;
+    std::vector<simulation::ClearanceFrame> frames;
+};
+
+/// The results of a simulation run.
+struct SimulationReport {
+    std::string scene;
+    std::string response;
+    std::string technique;
+    std::string device;
+    double tolerance = 0.0;
+    std::size_t objects = 0;
+    std::size_t lines = 0;
+    unsigned steps = 0;  ///< per frame
+    std::vector<simulation::FrameReport> frames;
+};
+
+void write_frame(JsonWriter& json, const ClearanceFrame& frame) {
+    json.begin_object();
+    json.member("time", frame.time);
+    json.member("query_ms", frame.milliseconds);
+    json.member("translation", frame.pose.translation);
+    json.member("degrees", frame.pose.angle * 180.0 / std::numbers::pi);
+    json.member("free_paths", frame.free_paths);
+    json.member("best_path", frame.best_path);
+    // An instance is the number of an obstacle.
+    JsonRow row(json, [&frame](InstanceHandle /*handle*/) { return frame.neighbor; });
+    write_cells(row, frame.clearance);
+    json.end_object();
+}
+
+benchmark::Spread query_times(const ClearanceReport& report) {
+    std::vector<double> times;
+    for (const ClearanceFrame& frame : report.frames) {
+        times.push_back(frame.milliseconds);
+    }
+    return benchmark::spread_of(std::move(times));
+}
+
+double least_clearance(const ClearanceReport& report) {
+    double least = report.frames.front().clearance.distance;
+    for (const ClearanceFrame& frame : report.frames) {
+        least = std::min(least, frame.clearance.distance);
+    }
+    return least;
+}
+
+/// Writes the run as JSON with a final line feed.
+void write_clearance_json(std::ostream& stream, const ClearanceReport& report) {
+    const simulation::ClearanceScene& scene = report.scene;
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.member("scene", scene.name());
+    json.member("technique", to_string(Technique::cpu));
+    json.key("device").null();
+    json.member("min_clearance", scene.query().min_clearance);
+    json.member("max_clearance", scene.query().max_clearance);
+    json.member("objects", scene.obstacles().size());
+    json.member("lines", scene.line_count());
+    json.member("paths_a_frame", report.frames.back().paths);
+    json.member("poses_a_frame", report.frames.back().poses);
+    json.member("least_clearance", least_clearance(report));
+    json.member("median_query_ms", query_times(report).median);
+    json.list("frames", report.frames,
+              [&json](const ClearanceFrame& frame) { write_frame(json, frame); });
+    json.end_object();
+    stream << '\n';
+}
+
+/// Writes the run as text, one item per line.
+void write_clearance_summary(std::ostream& stream, const ClearanceReport& report) {
+    const benchmark::Spread times = query_times(report);
+    const ClearanceFrame& last = report.frames.back();
+    const auto blocked = static_cast<std::size_t>(
+        std::count_if(report.frames.begin(), report.frames.end(),
+                      [](const ClearanceFrame& frame) { return frame.free_paths == 0; }));
+    stream << "scene             " << report.scene.name() << ", technique "
+           << to_string(Technique::cpu) << '\n'
+           << "objects, lines    " << report.scene.obstacles().size() << ", "
+           << report.scene.line_count() << '\n'
+           << "frames            " << report.frames.size() << "; " << short_number(last.time)
+           << " s\n"
+           << "asked a frame     " << last.poses << " poses, " << last.paths << " paths\n"
+           << "queries           " << short_number(times.median) << " ms a frame, median ("
+           << short_number(times.lower_quartile) << " - " << short_number(times.upper_quartile)
+           << ")\n"
+           << "clearance         " << short_number(least_clearance(report)) << " at least; "
+           << blocked << " frames without a free path\n"
+           << "last frame        " << short_number(last.clearance.distance) << ", "
+           << last.free_paths << " paths free\n";
+}
+
+double worst_penetration(const SimulationReport& report) {
+    double worst = 0.0;
+    for (const simulation::FrameReport& frame : report.frames) {
+        worst = std::max(worst, frame.worst_penetration);
+    }
+    return worst;
+}
+
+benchmark::Spread query_times(const SimulationReport& report) {
+    std::vector<double> times;
+    times.reserve(report.frames.size());
+    for (const simulation::FrameReport& frame : report.frames) {
+        times.push_back(frame.queries.milliseconds);
+    }
+    return benchmark::spread_of(std::move(times));
+}
+
+void write_energies(JsonWriter& json, const simulation::Energies& energies) {
+    json.key("energies").begin_object();
+    json.member("kinetic", energies.kinetic);
+    json.member("potential", energies.potential);
+    json.member("elastic", energies.elastic);
+    json.member("contact", energies.contact);
+    json.member("total", energies.total());
+    json.end_object();
+}
+
+void write_frame(JsonWriter& json, const simulation::FrameReport& frame) {
+    json.begin_object();
+    json.member("time", frame.time);
+    write_energies(json, frame.energies);
+    json.member("query_ms", frame.queries.milliseconds);
+    json.member("queries", frame.queries.queries);
+    json.member("batches", frame.queries.batches);
+    json.member("contacts", frame.contacts);
+    json.member("worst_penetration", frame.worst_penetration);
+    json.member("events", frame.events);
+    json.member("stopped", frame.stopped);
+    json.end_object();
+}
+
+/// Writes the run as JSON with a final line feed.
+void write_simulation_json(std::ostream& stream, const SimulationReport& report) {
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.member("scene", report.scene);
+    json.member("response", report.response);
+    json.member("technique", report.technique);
+    json.member("device", report.device, !report.device.empty());
+    json.member("tolerance", report.tolerance);
+    json.member("objects", report.objects);
+    json.member("lines", report.lines);
+    json.member("steps_a_frame", report.steps);
+    json.member("worst_penetration", worst_penetration(report));
+    json.member("median_query_ms", query_times(report).median);
+    write_energies(json, report.frames.back().energies);
+    json.list("frames", report.frames,
+              [&json](const simulation::FrameReport& frame) { write_frame(json, frame); });
+    json.end_object();
+    stream << '\n';
+}
+
+/// Writes the run as text, one item per line.
+void write_simulation_summary(std::ostream& stream, const SimulationReport& report) {
+    const benchmark::Spread times = query_times(report);
+    const simulation::FrameReport& last = report.frames.back();
+    std::size_t batches = 0;
+    std::size_t stopped = 0;
+    for (const simulation::FrameReport& frame : report.frames) {
+        batches += frame.queries.batches;
+        stopped += frame.stopped;
+    }
+    stream << "scene             " << report.scene << ", " << report.response << '\n'
+           << "device            " << device_text(report.device) << ", technique "
+           << report.technique << '\n'
+           << "objects, lines    " << report.objects << ", " << report.lines << '\n'
+           << "frames            " << report.frames.size() << ", " << report.steps
+           << " steps each; " << short_number(last.time) << " s\n"
+           << "queries           " << short_number(times.median) << " ms a frame, median ("
+           << short_number(times.lower_quartile) << " - " << short_number(times.upper_quartile)
+           << "); " << batches << " batches\n"
+           << "penetration       " << short_number(worst_penetration(report)) << " at worst; d is "
+           << short_number(report.tolerance) << '\n'
+           << "energy            " << short_number(last.energies.total()) << " (kinetic "
+           << short_number(last.energies.kinetic) << ")\n";
+    if (stopped > 0) {
+        stream << "waiting           " << stopped << " times a body, for the rest of a step\n";
+    }
+}
 
 constexpr const char* default_response = "penalty";
 
@@ -36,7 +326,7 @@ simulation::World make_world(Context& context, const SimulateArguments& argument
 void draw_frame(Drawing& drawing, const SimulateArguments& arguments, Context& context,
                 simulation::World& world, const View& view) {
     if (arguments.field) {
-        drawing.cells(field_overlay(context, world, view, FieldLayer::distance));
+        drawing.cells(field_overlay(context, world, view, FieldOverlay::distance));
     }
     draw_bodies(drawing, world.scene(), view);
     // With more bodies than this, marks would hide them all.
@@ -59,6 +349,54 @@ SimulationReport report_of(const simulation::World& world, const SimulateArgumen
     report.lines = line_count(scene);
     report.steps = scene.steps;
     return report;
+}
+
+/// A world is asked for clearances, which the CPU answers exactly; no body is pushed.
+void refuse_what_does_not_apply(const SimulateArguments& arguments) {
+    const auto refuse = [&arguments](bool is_given, const std::string& option) {
+        if (is_given) {
+            throw InputError(option + ": does not apply to " + arguments.scene +
+                             ", which asks a world for exact clearances and pushes no bodies");
+        }
+    };
+    refuse(arguments.response.has_value(), "--response");
+    refuse(arguments.bodies.has_value(), "--bodies");
+    refuse(arguments.tolerance.has_value(), "--tolerance");
+    refuse(arguments.field, "--field");
+    refuse(arguments.settings.boxes.has_value(), "--boxes");
+    refuse(arguments.settings.height.has_value(), "--height");
+    refuse(arguments.settings.memory_limit.has_value(), "--memory-limit");
+    const std::optional<Technique> technique = parse_technique_option(arguments.technique);
+    refuse(technique && technique != Technique::cpu && technique != Technique::automatic,
+           "--technique " + arguments.technique.value_or(""));
+}
+
+/// Runs a scene of clearances as run_simulate() does.
+int run_clearances(const SimulateArguments& arguments,
+                   const simulation::NamedClearanceScene& named) {
+    refuse_what_does_not_apply(arguments);
+    Context context = take(Context::create_cpu(parse_settings(arguments.settings)));
+    const std::unique_ptr<simulation::ClearanceScene> scene = named.make(context);
+    const View view = view_of(scene->view(), frame_width);
+    catch_ctrl_c();
+    ReportTarget target(arguments.json);
+    FrameOutput output(arguments, view, simulation::ClearanceScene::frame_time);
+    const auto draw = [&](Drawing& drawing) { draw_clearances(drawing, *scene, view); };
+
+    ClearanceReport report{*scene, {}};
+    output.add(0, draw);
+    const int status = run_frames(arguments.frames, [&](std::uint32_t frame) {
+        scene->advance();
+        report.frames.push_back(scene->frame());
+        output.add(frame, draw);
+    });
+    output.finish();
+    if (std::ostream* json = target.json()) {
+        write_clearance_json(*json, report);
+    }
+    write_clearance_summary(target.summary(), report);
+    target.commit();
+    return status;
 }
 
 }  // namespace

@@ -9,9 +9,6 @@
 
 namespace nearfield::tools {
 
-/// The width of pictures and videos, pixels.
-inline constexpr double frame_width = 960.0;
-
 /// The arguments of `nearfield simulate`.
 struct SimulateArguments {
     std::string scene;

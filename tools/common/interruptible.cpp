@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <iostream>
+#include <string>
 
 namespace nearfield::tools {
 namespace {
@@ -68,6 +69,20 @@ void InterruptibleCalls::show_until_done() {
                   << (ctrl_c ? " s; stopping\x1b[K\r" : " s; Ctrl-C stops\x1b[K\r") << std::flush;
     } while (!ended_.wait_for(lock, 200ms, is_over));
     std::cerr << "\x1b[K" << std::flush;
+}
+
+StatusLine::StatusLine() : is_shown_(isatty(STDERR_FILENO) == 1) {}
+
+void StatusLine::show(std::string_view text) const {
+    if (is_shown_) {
+        std::cerr << "\r\x1b[K" << text << std::flush;
+    }
+}
+
+void StatusLine::show(std::string_view what, std::uint64_t number, std::uint64_t count,
+                      std::string_view name) const {
+    show(std::string(what) + ' ' + std::to_string(number) + " of " + std::to_string(count) +
+         (name.empty() ? "" : ": ") + std::string(name));
 }
 
 }  // namespace nearfield::tools

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <string_view>
 #include <thread>
 
 namespace nearfield::tools {
@@ -46,6 +47,24 @@ private:
     std::condition_variable ended_;
     bool is_over_ = false;
     std::thread thread_;  // only with a terminal
+};
+
+/// A line on the standard error, if that is a terminal, about what is being done; the end clears
+/// it.
+class StatusLine {
+public:
+    StatusLine();
+    ~StatusLine() { show({}); }
+    StatusLine(const StatusLine&) = delete;
+    StatusLine& operator=(const StatusLine&) = delete;
+
+    void show(std::string_view text) const;
+    /// "row 3 of 50: NAME", or "frame 3 of 50" without a name.
+    void show(std::string_view what, std::uint64_t number, std::uint64_t count,
+              std::string_view name = {}) const;
+
+private:
+    bool is_shown_;
 };
 
 }  // namespace nearfield::tools

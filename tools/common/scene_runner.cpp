@@ -4,8 +4,8 @@
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/query_request.hpp>
-#include <tools/io/usual_tolerance.hpp>
-#include <tools/io/world_technique.hpp>
+#include <tools/io/shape_rings.hpp>
+#include <tools/io/world_request.hpp>
 
 #include <algorithm>
 #include <chrono>

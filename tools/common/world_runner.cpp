@@ -1,7 +1,7 @@
 #include <tools/common/add_timings.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/world_runner.hpp>
-#include <tools/io/world_technique.hpp>
+#include <tools/io/world_request.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 #include <nearfield/world.hpp>
 #include <nearfield/world_request.hpp>
 
-#include <tools/io/world_answer.hpp>
+#include <tools/io/world_report.hpp>
 
 #include <cstddef>
 #include <cstdint>

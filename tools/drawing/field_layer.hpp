@@ -1,14 +1,41 @@
 #pragma once
 
 #include <nearfield/result.hpp>
+#include <nearfield/shape.hpp>
 
 #include <tools/drawing/canvas.hpp>
-#include <tools/drawing/contour.hpp>
 #include <tools/drawing/view.hpp>
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace nearfield::tools {
+
+/// Values at the nodes of a lattice, row by row.
+struct Lattice {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<float> values;
+
+    [[nodiscard]] double at(std::size_t column, std::size_t row) const {
+        return static_cast<double>(values[row * width + column]);
+    }
+};
+
+/// The contour lines of a lattice at a value (marching squares, linear between nodes), in node
+/// units: node (column, row) is the point (column, row). Closed lines end where they begin.
+[[nodiscard]] std::vector<std::vector<Vector2>> contour_lines(const Lattice& lattice, double level);
+
+/// Draws the Voronoi diagram in false colour: every feature of B has a colour far from those of its
+/// neighbours along the boundary; vertices are light, edges saturated.
+void draw_voronoi(Canvas& canvas, const DistanceFieldResult& field, const View& view);
+[[nodiscard]] Color feature_color(Feature feature);
+
+/// Draws the gradient: its direction as a hue, with arrows on a coarse grid.
+void draw_gradient(Canvas& canvas, const DistanceFieldResult& field, const View& view);
+[[nodiscard]] Color direction_color(Vector2 direction);
+void draw_gradient_arrow(Canvas& canvas, Vector2 middle, Vector2 direction);
 
 /// Maps the values of a field to colours and contour lines. Both signs share one scale, so that
 /// equal colour intensity means equal distance.

@@ -1,9 +1,6 @@
 #include <tools/drawing/canvas.hpp>
-#include <tools/drawing/cell_image.hpp>
-#include <tools/drawing/color.hpp>
 #include <tools/drawing/field_layer.hpp>
 #include <tools/drawing/figure.hpp>
-#include <tools/drawing/furniture.hpp>
 #include <tools/drawing/legend.hpp>
 #include <tools/drawing/marks.hpp>
 #include <tools/drawing/view.hpp>

@@ -3,7 +3,6 @@
 #include <nearfield/shape.hpp>
 
 #include <tools/drawing/canvas.hpp>
-#include <tools/drawing/color.hpp>
 
 #include <string>
 #include <vector>

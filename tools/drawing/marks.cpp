@@ -1,4 +1,4 @@
-#include <tools/drawing/color.hpp>
+#include <tools/drawing/canvas.hpp>
 #include <tools/drawing/marks.hpp>
 
 #include <cmath>

@@ -35,11 +35,6 @@ void print_hashes(const MakeContext& make_context, bool quick, std::ostream& str
 /// `count` random pairs from pair `first` on, by all queries.
 [[nodiscard]] std::uint64_t hash_pairs(const MakeContext& make_context, std::uint32_t first,
                                        std::uint32_t count);
-/// The outlines of tests/data with each other, their fills and tessellated curves.
-[[nodiscard]] std::uint64_t hash_outlines(const MakeContext& make_context);
 /// A world that changes, by all its queries.
 [[nodiscard]] std::uint64_t hash_world(const MakeContext& make_context);
-/// A simulation of the paper, by both responses if its bodies are rigid.
-[[nodiscard]] std::uint64_t hash_simulation(const MakeContext& make_context, std::size_t scene);
-
 }  // namespace nearfield::hash

@@ -1,13 +1,20 @@
+#include <nearfield/curve.hpp>
 #include <nearfield/portable_math.hpp>
 #include <nearfield/shape.hpp>
 
 #include <tools/io/arc_chain.hpp>
 #include <tools/io/dxf.hpp>
-#include <tools/io/dxf_curves.hpp>
-#include <tools/io/dxf_values.hpp>
+#include <tools/io/input_error.hpp>
+#include <tools/io/skipped_parts.hpp>
+#include <tools/io/text_file.hpp>
+#include <tools/io/values.hpp>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -18,7 +25,391 @@
 #include <vector>
 
 namespace nearfield::tools {
+
 namespace {
+
+/// A group of a DXF file: two lines, of which the first one says what the second one is.
+struct DxfGroup {
+    int code = 0;
+    std::string_view value;  ///< without spaces around it; borrowed from the text
+    std::size_t offset = 0;  ///< of the value in the text
+};
+
+/// The groups of a DXF file in text form, one after the other.
+class DxfGroups {
+public:
+    /// Both are borrowed.
+    DxfGroups(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+    /// Reads the next group; false at the end of the text. Throws InputError for a code that is no
+    /// whole number, or that has no value.
+    bool next(DxfGroup& group);
+
+    /// Throws InputError for a place in the text.
+    [[noreturn]] void fail(std::size_t offset, const std::string& reason) const;
+
+private:
+    [[nodiscard]] std::string_view take_line();
+
+    std::string_view text_;
+    const std::string& file_;
+    std::size_t at_ = 0;
+};
+
+/// An entity of a drawing, or a marker of its structure (SECTION, BLOCK, EOF): what a group with
+/// the code 0 names, and the groups up to the next one.
+struct DxfEntity {
+    std::string_view type;
+    std::size_t offset = 0;  ///< of the type
+    std::vector<DxfGroup> groups = {};
+
+    /// The first group with a code; nothing if there is none.
+    [[nodiscard]] const DxfGroup* find(int code) const;
+    /// The value of the first group with a code; empty if there is none.
+    [[nodiscard]] std::string_view text(int code) const;
+    /// The same as a name, in which small letters are as capitals.
+    [[nodiscard]] std::string name(int code) const;
+};
+
+/// The numbers of a DXF file's entities. All throw InputError, with the place in the file, for what
+/// is no finite number of at most 1e12.
+class DxfValues {
+public:
+    DxfValues(std::string_view text, const std::string& file) : groups_(text, file) {}
+
+    [[nodiscard]] DxfGroups& groups() { return groups_; }
+
+    /// Throws InputError for a place in the text, or an entity.
+    [[noreturn]] void fail(std::size_t offset, const std::string& reason) const {
+        groups_.fail(offset, reason);
+    }
+    [[noreturn]] void fail(const DxfEntity& entity, const std::string& reason) const;
+
+    [[nodiscard]] double number(const DxfGroup& group) const;
+    /// The number of the first group with a code, which there must be, or else `usual`.
+    [[nodiscard]] double number(const DxfEntity& entity, int code) const;
+    [[nodiscard]] double number(const DxfEntity& entity, int code, double usual) const;
+    /// Those of all groups with a code.
+    [[nodiscard]] std::vector<double> numbers(const DxfEntity& entity, int code) const;
+    /// Whether the first group with a code has a bit.
+    [[nodiscard]] bool has_flag(const DxfEntity& entity, int code, int flag) const;
+    /// Of the groups `code` and `code` + 10.
+    [[nodiscard]] Vector2 point(const DxfEntity& entity, int code) const;
+
+    /// 1, or -1 for an entity that is seen from behind, whose x points the other way.
+    [[nodiscard]] double direction(const DxfEntity& entity) const;
+    [[nodiscard]] double radius(const DxfEntity& entity) const;
+
+private:
+    DxfGroups groups_;
+};
+
+/// An ELLIPSE.
+struct DxfEllipse {
+    Vector2 centre;
+    double length = 0.0;    ///< of its long half-axis
+    double width = 0.0;     ///< of the other one
+    double rotation = 0.0;  ///< of the long one, radians
+    /// Nothing if it is whole.
+    std::optional<ArcChain> arc = std::nullopt;
+};
+
+void DxfGroups::fail(std::size_t offset, const std::string& reason) const {
+    throw InputError(text_position(file_, text_, offset) + ": " + reason);
+}
+
+std::string_view DxfGroups::take_line() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view line = text_.substr(at_, end - at_);
+    at_ = std::min(end + 1, text_.size());
+    return without_spaces(line);
+}
+
+bool DxfGroups::next(DxfGroup& group) {
+    const std::size_t start = at_;
+    const std::string_view code = take_line();
+    constexpr std::string_view end_mark = "\x1A";  // of DOS
+    if (code == end_mark ||
+        (code.empty() && text_.find_first_not_of(" \t\r\n", start) == std::string_view::npos)) {
+        return false;
+    }
+    const auto [rest, error] = std::from_chars(code.data(), code.data() + code.size(), group.code);
+    if (error != std::errc{} || rest != code.data() + code.size()) {
+        fail(start, "expected the code of a group, a whole number; found \"" +
+                        std::string(code.substr(0, 40)) + "\"");
+    }
+    if (at_ == text_.size()) {
+        fail(at_,
+             "the file ends where the value of group " + std::to_string(group.code) + " should be");
+    }
+    group.offset = at_;
+    group.value = take_line();
+    return true;
+}
+
+const DxfGroup* DxfEntity::find(int code) const {
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [code](const DxfGroup& group) { return group.code == code; });
+    return found == groups.end() ? nullptr : &*found;
+}
+
+std::string_view DxfEntity::text(int code) const {
+    const DxfGroup* const group = find(code);
+    return group == nullptr ? std::string_view() : group->value;
+}
+
+std::string DxfEntity::name(int code) const {
+    std::string name(text(code));
+    std::transform(name.begin(), name.end(), name.begin(), to_upper);
+    return name;
+}
+
+/// Whether entities of a type are no outlines, but say something about them.
+bool is_dxf_annotation(std::string_view type) {
+    constexpr std::string_view types[] = {
+        "TEXT",   "MTEXT",  "DIMENSION", "LEADER", "MULTILEADER", "TOLERANCE", "POINT",  "HATCH",
+        "ATTDEF", "ATTRIB", "XLINE",     "RAY",    "VIEWPORT",    "IMAGE",     "SEQEND", "WIPEOUT"};
+    return std::find(std::begin(types), std::end(types), type) != std::end(types);
+}
+
+/// All entities and markers of a DXF file in text form.
+std::vector<DxfEntity> read_dxf_entities(DxfGroups& groups) {
+    constexpr int comment = 999;
+    std::vector<DxfEntity> entities;
+    for (DxfGroup group; groups.next(group);) {
+        if (group.code == 0) {
+            entities.push_back({.type = group.value, .offset = group.offset});
+        } else if (group.code == comment) {
+            continue;
+        } else if (entities.empty()) {
+            groups.fail(group.offset, "a DXF file begins with a group of code 0");
+        } else {
+            entities.back().groups.push_back(group);
+        }
+    }
+    return entities;
+}
+
+void DxfValues::fail(const DxfEntity& entity, const std::string& reason) const {
+    groups_.fail(entity.offset, std::string(entity.type) + ": " + reason);
+}
+
+double DxfValues::number(const DxfGroup& group) const {
+    double number = 0.0;
+    if (!parse_finite(group.value, number)) {
+        groups_.fail(group.offset, "group " + std::to_string(group.code) + ": \"" +
+                                       std::string(group.value.substr(0, 40)) +
+                                       "\" is not a finite number");
+    }
+    if (std::abs(number) > largest_coordinate) {
+        groups_.fail(group.offset, "group " + std::to_string(group.code) +
+                                       ": numbers must be at most 1e12 in magnitude");
+    }
+    return number;
+}
+
+double DxfValues::number(const DxfEntity& entity, int code) const {
+    const DxfGroup* const group = entity.find(code);
+    if (group == nullptr) {
+        fail(entity, "lacks group " + std::to_string(code));
+    }
+    return number(*group);
+}
+
+double DxfValues::number(const DxfEntity& entity, int code, double usual) const {
+    const DxfGroup* const group = entity.find(code);
+    return group == nullptr ? usual : number(*group);
+}
+
+std::vector<double> DxfValues::numbers(const DxfEntity& entity, int code) const {
+    std::vector<double> numbers;
+    for (const DxfGroup& group : entity.groups) {
+        if (group.code == code) {
+            numbers.push_back(number(group));
+        }
+    }
+    return numbers;
+}
+
+bool DxfValues::has_flag(const DxfEntity& entity, int code, int flag) const {
+    const double flags = number(entity, code, 0.0);
+    return std::abs(flags) <= 0x1p30 && (static_cast<int>(flags) & flag) != 0;
+}
+
+Vector2 DxfValues::point(const DxfEntity& entity, int code) const {
+    return {number(entity, code), number(entity, code + 10)};
+}
+
+double DxfValues::direction(const DxfEntity& entity) const {
+    constexpr double rounding = 1e-9;
+    const double z = number(entity, 230, 1.0);
+    if (std::abs(number(entity, 210, 0.0)) > rounding ||
+        std::abs(number(entity, 220, 0.0)) > rounding || std::abs(std::abs(z) - 1.0) > rounding) {
+        fail(entity, "does not lie in the plane of x and y");
+    }
+    return z < 0.0 ? -1.0 : 1.0;
+}
+
+double DxfValues::radius(const DxfEntity& entity) const {
+    const double radius = number(entity, 40);
+    if (!(radius >= 0.0)) {
+        fail(entity, "its radius is below 0");
+    }
+    return radius;
+}
+
+/// The point a part of the way from one to another.
+Vector2 between(const Vector2& from, const Vector2& to, double part) {
+    return {(1.0 - part) * from.x + part * to.x, (1.0 - part) * from.y + part * to.y};
+}
+
+/// A polynomial B-spline.
+struct Spline {
+    std::size_t degree = 3;
+    std::vector<double> knots;  // degree + 1 more than points, ascending
+    std::vector<Vector2> points;
+
+    /// The polar form of the polynomial between knots `span` and `span` + 1, at as many parameters
+    /// as the degree says (Ramshaw 1987; de Boor's algorithm with another parameter in each step).
+    [[nodiscard]] Vector2 polar(std::size_t span, const std::array<double, 3>& parameters) const {
+        std::array<Vector2, 4> d;
+        std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(span - degree), degree + 1,
+                    d.begin());
+        for (std::size_t step = 1; step <= degree; ++step) {
+            for (std::size_t j = degree; j >= step; --j) {
+                const double left = knots[span - degree + j];
+                const double right = knots[span + 1 + j - step];
+                d[j] = between(d[j - 1], d[j], (parameters[step - 1] - left) / (right - left));
+            }
+        }
+        return d[degree];
+    }
+
+    /// The k-th point of the Bézier curve between two knots.
+    [[nodiscard]] Vector2 control(std::size_t span, std::size_t k) const {
+        std::array<double, 3> parameters{knots[span], knots[span], knots[span]};
+        std::fill_n(parameters.begin(), k, knots[span + 1]);
+        return polar(span, parameters);
+    }
+};
+
+Spline read_spline(const DxfValues& values, const DxfEntity& entity) {
+    Spline spline;
+    const double degree = values.number(entity, 71);
+    spline.knots = values.numbers(entity, 40);
+    const std::vector<double> x = values.numbers(entity, 10);
+    const std::vector<double> y = values.numbers(entity, 20);
+    const std::vector<double> z = values.numbers(entity, 30);
+    const std::vector<double> weights = values.numbers(entity, 41);
+    if (x.empty() && entity.find(11) != nullptr) {
+        values.fail(entity, "has points to go through, and no control points");
+    }
+    if (!(degree == 1.0 || degree == 2.0 || degree == 3.0)) {
+        values.fail(entity, "is not of degree 1, 2 or 3; convert it to polylines");
+    }
+    spline.degree = static_cast<std::size_t>(degree);
+    const auto differs = [](const std::vector<double>& numbers) {
+        return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) !=
+               numbers.end();
+    };
+    if (differs(weights)) {
+        values.fail(entity, "is rational: its weights differ; convert it to polylines");
+    }
+    if (differs(z)) {
+        values.fail(entity, "does not lie in the plane of x and y");
+    }
+    if (y.size() != x.size() || x.size() <= spline.degree ||
+        spline.knots.size() != x.size() + spline.degree + 1) {
+        values.fail(entity, "has " + std::to_string(x.size()) + " control points and " +
+                                std::to_string(spline.knots.size()) + " knots; degree " +
+                                std::to_string(spline.degree) +
+                                " needs more points than that, and as many knots and " +
+                                std::to_string(spline.degree + 1) + " more");
+    }
+    if (!std::is_sorted(spline.knots.begin(), spline.knots.end())) {
+        values.fail(entity, "its knots do not ascend");
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        spline.points.push_back({x[i], y[i]});
+    }
+    return spline;
+}
+
+/// A SPLINE: a polynomial B-spline of degree 1 to 3, as the Bézier curves that it consists of.
+/// Throws InputError for any other.
+ArcChain dxf_spline(const DxfValues& values, const DxfEntity& entity) {
+    static_cast<void>(values.direction(entity));  // its points are not seen from behind
+    const Spline spline = read_spline(values, entity);
+    ArcChain chain{.points = {}, .offset = entity.offset};
+    double magnitude = 0.0;
+    for (const Vector2& point : spline.points) {
+        magnitude = std::max({magnitude, std::abs(point.x), std::abs(point.y)});
+    }
+    Vector2 end;
+    for (std::size_t span = spline.degree; span < spline.points.size(); ++span) {
+        if (spline.knots[span] == spline.knots[span + 1]) {
+            continue;
+        }
+        const Vector2 start = spline.control(span, 0);
+        const Vector2 second = spline.control(span, 1);
+        if (!chain.points.empty() &&
+            std::max(std::abs(start.x - end.x), std::abs(start.y - end.y)) > 1e-9 * magnitude) {
+            values.fail(entity, "is in several pieces: a knot is repeated too often");
+        }
+        end = spline.control(span, spline.degree);
+        ArcChain::Point& from = chain.points.emplace_back();
+        from.at = start;
+        if (spline.degree == 2) {
+            from.controls = {between(second, start, 1.0 / 3.0), between(second, end, 1.0 / 3.0)};
+        } else if (spline.degree == 3) {
+            from.controls = {second, spline.control(span, 2)};
+        }
+    }
+    if (!chain.points.empty()) {
+        chain.points.push_back({.at = end});
+    }
+    return chain;
+}
+
+DxfEllipse dxf_ellipse(const DxfValues& values, const DxfEntity& entity) {
+    constexpr double turn = 2.0 * std::numbers::pi;
+    const Vector2 axis = values.point(entity, 11);
+    DxfEllipse ellipse{.centre = values.point(entity, 10), .length = std::hypot(axis.x, axis.y)};
+    ellipse.width = values.number(entity, 40) * ellipse.length;
+    ellipse.rotation = arc_tangent(axis.y, axis.x);
+    if (!(ellipse.length > 0.0 && ellipse.width > 0.0)) {
+        values.fail(entity, "its axes are not above 0");
+    }
+    const double way = values.direction(entity);
+    const double first = values.number(entity, 41, 0.0);
+    double sweep = std::fmod(values.number(entity, 42, turn) - first, turn);
+    sweep += sweep <= 0.0 ? turn : 0.0;
+    constexpr double rounding = 1e-4;  // of files with few digits
+    if (turn - sweep <= rounding || sweep <= rounding) {
+        return ellipse;
+    }
+    const double ratio = ellipse.width / ellipse.length;
+    const auto at = [&](double angle) {
+        const auto [sine, cosine] = sine_cosine(angle);
+        return Vector2{ellipse.centre.x + cosine * axis.x - way * ratio * sine * axis.y,
+                       ellipse.centre.y + cosine * axis.y + way * ratio * sine * axis.x};
+    };
+    // None is near half a turn, where ends say little about the way between.
+    const std::size_t parts = 1 + static_cast<std::size_t>(sweep / 2.0);
+    ArcChain& chain = ellipse.arc.emplace(ArcChain{.points = {}, .offset = entity.offset});
+    for (std::size_t i = 0; i <= parts; ++i) {
+        const double part = static_cast<double>(i) / static_cast<double>(parts);
+        ArcChain::Point& point = chain.points.emplace_back();
+        point.at = at(first + part * sweep);
+        if (i < parts) {
+            point.ellipse = EllipticArc{.radius_x = ellipse.length,
+                                        .radius_y = ellipse.width,
+                                        .rotation = ellipse.rotation,
+                                        .counter_clockwise = way > 0.0};
+        }
+    }
+    return ellipse;
+}
 
 /// Entities that stand together: a block, or model space.
 struct DxfBlock {

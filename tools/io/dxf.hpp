@@ -2,8 +2,8 @@
 
 #include <nearfield/curve.hpp>
 
-#include <tools/io/length_unit.hpp>
 #include <tools/io/skipped_parts.hpp>
+#include <tools/io/values.hpp>
 
 #include <string>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <tools/io/length_unit.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/shape_rings.hpp>
 #include <tools/io/text_file.hpp>
+#include <tools/io/values.hpp>
 
 #include <optional>
 #include <vector>

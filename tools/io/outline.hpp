@@ -2,10 +2,10 @@
 
 #include <nearfield/curve.hpp>
 
-#include <tools/io/length_unit.hpp>
 #include <tools/io/skipped_parts.hpp>
 #include <tools/io/svg.hpp>
 #include <tools/io/text_file.hpp>
+#include <tools/io/values.hpp>
 
 #include <cstdint>
 #include <string>

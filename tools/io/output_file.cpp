@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <iostream>
 #include <stdexcept>
 #include <system_error>
 
@@ -118,6 +119,29 @@ void require_different_files(const std::vector<std::string>& inputs,
             throw InputError(output + ": would be written over an input or another output");
         }
         taken.push_back(path);
+    }
+}
+
+ReportTarget::ReportTarget(const std::optional<std::string>& json) : standard_output_(json == "-") {
+    if (json && !standard_output_) {
+        file_.emplace(*json);
+    }
+}
+
+std::ostream* ReportTarget::json() noexcept {
+    if (standard_output_) {
+        return &std::cout;
+    }
+    return file_ ? &file_->stream() : nullptr;
+}
+
+std::ostream& ReportTarget::summary() noexcept {
+    return standard_output_ ? std::cerr : std::cout;
+}
+
+void ReportTarget::commit() {
+    if (file_) {
+        file_->commit();
     }
 }
 

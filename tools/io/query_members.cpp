@@ -1,4 +1,4 @@
-#include <tools/io/json_members.hpp>
+#include <tools/io/json_document.hpp>
 #include <tools/io/query_members.hpp>
 #include <tools/io/values.hpp>
 #include <tools/io/world_request.hpp>

@@ -1,7 +1,6 @@
 #include <tools/io/geojson.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_document.hpp>
-#include <tools/io/json_members.hpp>
 #include <tools/io/outline.hpp>
 #include <tools/io/query_members.hpp>
 #include <tools/io/scene.hpp>

@@ -1,13 +1,34 @@
 #pragma once
 
 #include <nearfield/fill.hpp>
+#include <nearfield/shape.hpp>
 
 #include <tools/io/outline.hpp>
 
 #include <optional>
+#include <span>
 #include <string>
 
 namespace nearfield::tools {
+
+/// True if each ring of the first list has a counterpart of its own in the second one and the other
+/// way around: as many vertices in the same cyclic order, or in the reverse one, each no farther
+/// than `distance` from its counterpart along x and along y.
+[[nodiscard]] bool are_same_rings(std::span<const Ring> first, std::span<const Ring> second,
+                                  double distance);
+
+/// A shape at a place, as far as a tolerance depends on it.
+struct PlacedRings {
+    std::span<const Ring> rings;
+    double deviation = 0.0;
+    Vector2 translation;
+};
+
+/// The tolerance of a separation or a closest point that states none: its answer is exact, and only
+/// what it says of the grid depends on the tolerance. A thousandth of the longest side of the
+/// boxes of both shapes, or more where their deviations or the size of their coordinates ask for
+/// it.
+[[nodiscard]] double usual_tolerance(const PlacedRings& a, const PlacedRings& b);
 
 /// How the rings of an outline become those of a shape.
 struct OutlineTreatment {

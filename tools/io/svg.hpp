@@ -3,8 +3,8 @@
 #include <nearfield/curve.hpp>
 #include <nearfield/fill.hpp>
 
-#include <tools/io/length_unit.hpp>
 #include <tools/io/skipped_parts.hpp>
+#include <tools/io/values.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include <tools/io/svg_clip.hpp>
+#include <tools/io/svg_length.hpp>
 #include <tools/io/svg_shapes.hpp>
-#include <tools/io/svg_transform.hpp>
 #include <tools/io/values.hpp>
 
 #include <cmath>

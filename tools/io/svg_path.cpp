@@ -1,5 +1,5 @@
-#include <tools/io/characters.hpp>
 #include <tools/io/svg_path.hpp>
+#include <tools/io/values.hpp>
 
 #include <numbers>
 #include <string_view>

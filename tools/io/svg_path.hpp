@@ -2,7 +2,7 @@
 
 #include <nearfield/curve.hpp>
 
-#include <tools/io/svg_text.hpp>
+#include <tools/io/svg_document.hpp>
 
 #include <string>
 

@@ -1,4 +1,3 @@
-#include <tools/io/characters.hpp>
 #include <tools/io/svg_style.hpp>
 #include <tools/io/values.hpp>
 

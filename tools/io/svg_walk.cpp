@@ -1,7 +1,7 @@
 #include <tools/io/svg_clip.hpp>
+#include <tools/io/svg_length.hpp>
 #include <tools/io/svg_path.hpp>
 #include <tools/io/svg_shapes.hpp>
-#include <tools/io/svg_transform.hpp>
 #include <tools/io/svg_walk.hpp>
 #include <tools/io/values.hpp>
 

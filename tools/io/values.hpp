@@ -2,11 +2,47 @@
 
 #include <nearfield/shape.hpp>
 
+#include <tools/io/names.hpp>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace nearfield::tools {
+
+// <cctype> classifies characters by locale; the file formats do not.
+inline bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+inline bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+inline bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+inline char to_upper(char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+/// The unit of the coordinates that are read from a file: user units are those of the file.
+enum class LengthUnit { user, px, mm, cm, inch, pt, pc };
+
+template <>
+inline constexpr auto names<LengthUnit> = std::to_array<NamedValue<LengthUnit>>({
+    {"user", LengthUnit::user},
+    {"px", LengthUnit::px},
+    {"mm", LengthUnit::mm},
+    {"cm", LengthUnit::cm},
+    {"in", LengthUnit::inch},
+    {"pt", LengthUnit::pt},
+    {"pc", LengthUnit::pc},
+});
+
+/// CSS pixels, of which an inch has 96, in a unit; 1 for user units.
+[[nodiscard]] double pixels_per(LengthUnit unit);
+
+/// Likewise in a unit of DXF's $INSUNITS; 0 for a code that is not known.
+[[nodiscard]] double pixels_of_insunits(double code);
 
 /// Strict parsing of what stands on the command line: the whole text, finite numbers, nothing
 /// before or after but the spaces around the numbers of a list. `option` is for the messages of

@@ -84,4 +84,10 @@ struct WorldRequest {
 /// The instances that the string at a place names: a group, or one instance.
 [[nodiscard]] InstanceGroup read_instance_group(const JsonPlace& place, const Scene& scene);
 
+/// The technique that answers a query of all instances: `cpu`, unless it requests `compute`.
+[[nodiscard]] Technique answering_technique(const WorldRequest& request);
+
+/// Why the technique that a query requests does not answer it; empty if it does.
+[[nodiscard]] std::string technique_problem(const WorldRequest& request);
+
 }  // namespace nearfield::tools

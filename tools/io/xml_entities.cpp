@@ -1,6 +1,6 @@
-#include <tools/io/characters.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/text_file.hpp>
+#include <tools/io/values.hpp>
 #include <tools/io/xml_entities.hpp>
 
 #include <algorithm>

@@ -1,7 +1,9 @@
 #include <tools/rendering/drawing.hpp>
+#include <tools/rendering/triangles.hpp>
 
 #include <cmath>
 #include <utility>
+#include <variant>
 
 namespace nearfield::tools {
 
@@ -42,6 +44,30 @@ void Drawing::text(Vector2 position, const std::string& text, double size, const
     Canvas letters(1, 1, color);
     for (std::vector<Ring>& character : letters.text_outlines(position, text, size, align)) {
         fill(std::move(character), color);
+    }
+}
+
+void Mesh::add(const Drawing& drawing) {
+    const auto first = static_cast<std::uint32_t>(indices_.size());
+    Triangles triangles(vertices_, indices_);
+    for (const DrawnItem& item : drawing.items()) {
+        std::visit([&triangles](const auto& any) { triangles.add(any); }, item);
+    }
+    parts_.push_back(
+        {0, 0, width_, height_, first, static_cast<std::uint32_t>(indices_.size()) - first});
+}
+
+void Mesh::add(std::span<const MeshVertex> vertices, std::span<const std::uint16_t> indices,
+               std::span<const MeshPart> parts) {
+    const auto base = static_cast<std::uint32_t>(vertices_.size());
+    const auto first = static_cast<std::uint32_t>(indices_.size());
+    vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
+    for (const std::uint16_t index : indices) {
+        indices_.push_back(base + index);
+    }
+    for (MeshPart part : parts) {
+        part.first += first;
+        parts_.push_back(part);
     }
 }
 

@@ -1,5 +1,5 @@
 #include <tools/common/library_error.hpp>
-#include <tools/drawing/cell_image.hpp>
+#include <tools/drawing/field_layer.hpp>
 #include <tools/rendering/scene_picture.hpp>
 #include <tools/simulation/plane.hpp>
 
@@ -34,13 +34,13 @@ Color banded_direction_color(float x, float y) {
     return direction_color(simulation::polar(1.0, turn * std::round(bands * angle / turn) / bands));
 }
 
-Batch fields_of(const simulation::Proximity& proximity, const View& view, FieldLayer layer) {
+Batch fields_of(const simulation::Proximity& proximity, const View& view, FieldOverlay layer) {
     Batch batch;
     DistanceFieldQuery query;
     query.tolerance = pixels_a_cell / view.scale() / std::sqrt(2.0);
     query.rectangle = view.world();
-    query.features = layer == FieldLayer::features;
-    query.gradients = layer == FieldLayer::gradient;
+    query.features = layer == FieldOverlay::features;
+    query.gradients = layer == FieldOverlay::gradient;
     for (const Instance& instance : proximity.instances()) {
         query.b = instance;
         batch.add(query);
@@ -51,7 +51,7 @@ Batch fields_of(const simulation::Proximity& proximity, const View& view, FieldL
 }  // namespace
 
 ColoredCells field_overlay(Context& context, simulation::World& world, const View& view,
-                           FieldLayer layer) {
+                           FieldOverlay layer) {
     const Batch batch = fields_of(world.proximity(), view, layer);
     Results results;
     require(context.run(batch, results), "the distance field");
@@ -73,10 +73,10 @@ ColoredCells field_overlay(Context& context, simulation::World& world, const Vie
                                  return a->values[cell] < b->values[cell];
                              });
         const DistanceFieldResult& field = **nearest;
-        if (layer == FieldLayer::features) {
+        if (layer == FieldOverlay::features) {
             const auto body = static_cast<std::size_t>(nearest - fields.begin());
             cells.colors.push_back(body_feature_color(body, field.features[cell]));
-        } else if (layer == FieldLayer::gradient) {
+        } else if (layer == FieldOverlay::gradient) {
             cells.colors.push_back(
                 banded_direction_color(field.gradients[2 * cell], field.gradients[2 * cell + 1]));
         } else {

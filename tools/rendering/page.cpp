@@ -1,8 +1,17 @@
+#include <tools/drawing/canvas.hpp>
 #include <tools/rendering/page.hpp>
 
 #include <cstring>
 
 namespace nearfield::tools {
+
+std::string png_of(const FrameImage& image) {
+    const int width = static_cast<int>(image.width);
+    const int height = static_cast<int>(image.height);
+    Canvas canvas(width, height, palette::page);
+    canvas.image(image.pixels, width, height, {});
+    return canvas.png();
+}
 
 PageReader::PageReader(const Gpu& gpu, vk::Extent2D extent)
     : extent_(extent),

@@ -1,10 +1,24 @@
 #pragma once
 
 #include <tools/rendering/drawing.hpp>
-#include <tools/rendering/frame_image.hpp>
 #include <tools/rendering/vulkan_painter.hpp>
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 namespace nearfield::tools {
+
+/// A picture in memory: 0xAARRGGBB with alpha 255, row by row from the top.
+struct FrameImage {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint32_t> pixels;
+};
+
+/// Encodes an image as a PNG file.
+[[nodiscard]] std::string png_of(const FrameImage& image);
 
 /// Reads a painted page back in two steps.
 class PageReader {

@@ -2,11 +2,17 @@
 
 #include <tools/drawing/view.hpp>
 #include <tools/rendering/drawing.hpp>
+#include <tools/simulation/scene.hpp>
 #include <tools/simulation/world.hpp>
 
 #include <vector>
 
 namespace nearfield::tools {
+
+/// Adds the ground and the bodies of a scene as solids on it: convex outlines with a height, wheels
+/// and a cabin, seen from the south and above. Ground positions are those of the flat picture, so
+/// contacts and normals drawn over it fit.
+void draw_solids(Drawing& drawing, const simulation::Scene& scene, const View& view);
 
 /// The results of proximity queries on a scene at one moment.
 struct Observations {
@@ -18,7 +24,7 @@ struct Observations {
 [[nodiscard]] Observations observe(simulation::World& world);
 
 /// The part of the bodies' distance fields that is shown.
-enum class FieldLayer {
+enum class FieldOverlay {
     none,
     distance,  ///< signed distance to the nearest body, positive outside all
     features,  ///< the nearest feature of the nearest body: the Voronoi diagram
@@ -27,7 +33,7 @@ enum class FieldLayer {
 
 /// A field layer over the view, as colours. Precondition: the layer is not `none`.
 [[nodiscard]] ColoredCells field_overlay(Context& context, simulation::World& world,
-                                         const View& view, FieldLayer layer);
+                                         const View& view, FieldOverlay layer);
 
 /// The outlines of a shape at a pose, in pixels of the page.
 [[nodiscard]] std::vector<Ring> on_page(const std::vector<Ring>& rings, const Pose& pose,

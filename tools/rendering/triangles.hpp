@@ -1,7 +1,6 @@
 #pragma once
 
 #include <tools/rendering/drawing.hpp>
-#include <tools/rendering/mesh.hpp>
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <tools/drawing/color.hpp>
-#include <tools/rendering/mesh.hpp>
+#include <tools/drawing/canvas.hpp>
+#include <tools/rendering/drawing.hpp>
 #include <tools/rendering/resources.hpp>
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <tools/benchmark/milliseconds_of.hpp>
+#include <tools/benchmark/measuring.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/simulation/clearance_scene.hpp>
 #include <tools/simulation/nest.hpp>

@@ -1,8 +1,15 @@
 #pragma once
 
+#include <nearfield/shape.hpp>
+
 #include <tools/simulation/clearance_scene.hpp>
 
+#include <vector>
+
 namespace nearfield::simulation {
+
+/// An item to be cut from a strip: its outer boundary, then its holes, about the origin.
+using NestItem = std::vector<Ring>;
 
 /// Items nested in a strip, one of which is dragged over the others. The strip's edge counts as an
 /// obstacle, the first one. Until the user takes an item, one of them follows a path of its own.

@@ -1,6 +1,6 @@
-#include <tools/simulation/countries.hpp>
 #include <tools/simulation/plane.hpp>
 #include <tools/simulation/robots.hpp>
+#include <tools/simulation/scenes.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <nearfield/diagnostics.hpp>
 
 #include <tools/common/library_error.hpp>
-#include <tools/drawing/color.hpp>
+#include <tools/drawing/canvas.hpp>
 #include <tools/simulation/plane.hpp>
 #include <tools/viewer/findings.hpp>
 
@@ -134,7 +134,7 @@ Findings find(Simulation& simulation, const Overlays& overlays) {
 
 void draw(tools::Drawing& drawing, Simulation& simulation, const Overlays& overlays,
           const Findings& findings, const tools::View& view) {
-    if (overlays.field != tools::FieldLayer::none) {
+    if (overlays.field != tools::FieldOverlay::none) {
         drawing.cells(
             tools::field_overlay(simulation.context(), simulation.world(), view, overlays.field));
     }

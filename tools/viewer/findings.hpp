@@ -13,7 +13,7 @@ namespace nearfield::viewer {
 
 /// The layers over and under the bodies.
 struct Overlays {
-    tools::FieldLayer field = tools::FieldLayer::none;
+    tools::FieldOverlay field = tools::FieldOverlay::none;
     bool contacts = true;
     bool depths = true;
     bool regions = false;

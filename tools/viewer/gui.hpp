@@ -1,7 +1,7 @@
 #pragma once
 
 #include <SDL.h>
-#include <tools/rendering/mesh.hpp>
+#include <tools/rendering/drawing.hpp>
 #include <tools/rendering/vulkan_painter.hpp>
 
 namespace nearfield::viewer {

@@ -76,8 +76,8 @@ void add_options(CLI::App& program, Arguments& arguments) {
         ->group(group);
 }
 
-tools::FieldLayer parse_field(const std::string& name) {
-    using Layer = tools::FieldLayer;
+tools::FieldOverlay parse_field(const std::string& name) {
+    using Layer = tools::FieldOverlay;
     const std::array names{std::pair{"none", Layer::none}, std::pair{"distance", Layer::distance},
                            std::pair{"voronoi", Layer::features},
                            std::pair{"gradient", Layer::gradient}};

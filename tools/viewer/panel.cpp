@@ -22,10 +22,11 @@ struct Named {
 constexpr std::array responses{
     Named<simulation::Response>{simulation::Response::penalty, "penalty"},
     Named<simulation::Response>{simulation::Response::backtracking, "backtracking"}};
-constexpr std::array fields{Named<tools::FieldLayer>{tools::FieldLayer::none, "none"},
-                            Named<tools::FieldLayer>{tools::FieldLayer::distance, "distance"},
-                            Named<tools::FieldLayer>{tools::FieldLayer::features, "Voronoi ids"},
-                            Named<tools::FieldLayer>{tools::FieldLayer::gradient, "gradient"}};
+constexpr std::array fields{
+    Named<tools::FieldOverlay>{tools::FieldOverlay::none, "none"},
+    Named<tools::FieldOverlay>{tools::FieldOverlay::distance, "distance"},
+    Named<tools::FieldOverlay>{tools::FieldOverlay::features, "Voronoi ids"},
+    Named<tools::FieldOverlay>{tools::FieldOverlay::gradient, "gradient"}};
 
 template <class Value>
 std::vector<Named<Value>> named(std::initializer_list<Value> values) {
@@ -104,7 +105,7 @@ void add_choices(Choices& choices, const Reading& reading) {
 
 void add_overlays(Overlays& overlays) {
     ImGui::Separator();
-    choose<tools::FieldLayer>("field", overlays.field, fields);
+    choose<tools::FieldOverlay>("field", overlays.field, fields);
     ImGui::Checkbox("contacts", &overlays.contacts);
     ImGui::SameLine();
     ImGui::Checkbox("depths", &overlays.depths);

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
-#include <tools/benchmark/interleave.hpp>
-#include <tools/benchmark/median_timings.hpp>
-#include <tools/benchmark/spread.hpp>
+#include <tools/benchmark/measuring.hpp>
 
 #include <cstddef>
 #include <string>

@@ -1,11 +1,6 @@
 #include <gtest/gtest.h>
-#include <tools/benchmark/coast_lines.hpp>
-#include <tools/benchmark/crowds.hpp>
-#include <tools/benchmark/objects.hpp>
-#include <tools/benchmark/outlines.hpp>
-#include <tools/benchmark/paper_scenes.hpp>
-#include <tools/benchmark/questions.hpp>
 #include <tools/benchmark/table.hpp>
+#include <tools/benchmark/workloads.hpp>
 
 #include <algorithm>
 #include <cmath>

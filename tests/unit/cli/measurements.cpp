@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <tools/cli/query_times.hpp>
-#include <tools/cli/technique_race.hpp>
+#include <tools/cli/paper_tables.hpp>
+#include <tools/cli/standard_table.hpp>
 #include <tools/simulation/rigid_body.hpp>
 #include <tools/simulation/scene.hpp>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <tools/cli/thread_team.hpp>
+#include <tools/cli/settings_options.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -4,7 +4,7 @@
 #include <tests/unit/common/device_scene_test.hpp>
 #include <tools/io/json_writer.hpp>
 #include <tools/io/world_report.hpp>
-#include <tools/io/world_technique.hpp>
+#include <tools/io/world_request.hpp>
 
 #include <cstddef>
 #include <optional>

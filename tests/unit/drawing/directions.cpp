@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <tools/drawing/canvas.hpp>
-#include <tools/drawing/cell_image.hpp>
-#include <tools/drawing/contour.hpp>
+#include <tools/drawing/field_layer.hpp>
 #include <tools/drawing/line_chart.hpp>
 #include <tools/drawing/view.hpp>
 

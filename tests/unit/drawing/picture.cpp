@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 #include <tools/drawing/canvas.hpp>
-#include <tools/drawing/color.hpp>
-#include <tools/drawing/contour.hpp>
+#include <tools/drawing/field_layer.hpp>
 #include <tools/drawing/figure.hpp>
-#include <tools/drawing/furniture.hpp>
+#include <tools/drawing/legend.hpp>
 #include <tools/drawing/view.hpp>
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
 #include <tools/io/outline.hpp>
-#include <tools/io/same_rings.hpp>
 #include <tools/io/shape_rings.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <tools/io/length_unit.hpp>
 #include <tools/io/svg_length.hpp>
+#include <tools/io/values.hpp>
 
 #include <string>
 

@@ -4,7 +4,7 @@
 #include <tests/support/folder.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/scene.hpp>
-#include <tools/io/usual_tolerance.hpp>
+#include <tools/io/shape_rings.hpp>
 #include <tools/io/values.hpp>
 
 #include <cmath>
