@@ -89,12 +89,12 @@ void Comparison::compare(const PenetrationResult& result, const Answer& answer) 
     }
     // Both sides are sampled: each may miss the deepest point by the bound.
     expect_near("depth", depth, answer.number, result.error_bound);
-    for (const PenetratingPoint& record : result.records) {
-        if (!peer_.is_inside(query_->b, record.point)) {
+    for (const PenetratingPoint& record : result.points) {
+        if (!peer_.is_inside(query_->b, record.position)) {
             complain("a record's point is not inside");
         }
         expect_near("depth of a record", record.depth,
-                    peer_.distance_to_boundary(query_->b, record.point), 0.0);
+                    peer_.distance_to_boundary(query_->b, record.position), 0.0);
     }
 }
 

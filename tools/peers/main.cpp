@@ -1,18 +1,19 @@
 // Compares nearfield with libraries that answer some of the same queries: the same pairs, process
 // and core, in alternating turns. All answers are compared first; if they differ by more than
-// nearfield's stated bounds, the program ends.
+// nearfield's stated bounds, the program ends. The same then for worlds, with libraries that keep
+// an index, too.
 //   bench_peers [--filter TEXT] [--json FILE|-]
 
 #include <nearfield/context.hpp>
 
 #include <CLI/CLI.hpp>
 #include <sched.h>
-#include <tools/benchmark/machine.hpp>
+#include <tools/benchmark/measuring.hpp>
+#include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
-#include <tools/io/report_target.hpp>
+#include <tools/io/output_file.hpp>
 #include <tools/peers/race.hpp>
 #include <tools/peers/report.hpp>
-#include <unistd.h>
 
 #include <exception>
 #include <iostream>
@@ -40,25 +41,32 @@ void run(const std::string& filter, const std::optional<std::string>& json) {
     pin_to_one_core();
     Context context = tools::take(Context::create_headless());
     const benchmark::Machine machine = benchmark::this_machine();
-    const bool show_progress = isatty(STDERR_FILENO) == 1;
+    const tools::StatusLine line;
     std::vector<peers::ProblemTimes> table;
     peers::write_head(report.summary(), machine, context.device_name());
     for (const peers::Problem& problem : peers::all_problems()) {
-        if (problem.name.find(filter) == std::string::npos) {
-            continue;
+        if (problem.name.find(filter) != std::string::npos) {
+            line.show(problem.name);
+            table.push_back(peers::race(problem, context));
+            line.show({});
+            peers::write_row(report.summary(), table.back());
         }
-        if (show_progress) {
-            std::cerr << problem.name << "\x1b[K\r" << std::flush;
-        }
-        table.push_back(peers::race(problem, context));
-        peers::write_row(report.summary(), table.back());
-    }
-    if (table.empty()) {
-        throw std::runtime_error("--filter: no row has \"" + filter + "\" in its name");
     }
     peers::write_notes(report.summary(), table);
+    std::vector<peers::WorldTimes> worlds;
+    for (const peers::WorldProblem& problem : peers::world_problems()) {
+        if (problem.name.find(filter) != std::string::npos) {
+            line.show(problem.name);
+            worlds.push_back(peers::race(problem));
+        }
+    }
+    line.show({});
+    if (table.empty() && worlds.empty()) {
+        throw std::runtime_error("--filter: no row has \"" + filter + "\" in its name");
+    }
+    peers::write_worlds(report.summary(), worlds);
     if (std::ostream* stream = report.json()) {
-        peers::write_json(*stream, table, machine, context.device_name());
+        peers::write_json(*stream, table, worlds, machine, context.device_name());
     }
     report.commit();
 }

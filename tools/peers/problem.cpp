@@ -1,9 +1,11 @@
+#include <tools/benchmark/workloads.hpp>
 #include <tools/peers/problem.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace nearfield::peers {
 namespace {
@@ -84,6 +86,102 @@ void points_in(const PlacedShape& a, double spacing, const Rectangle& box,
             }
         }
     }
+}
+
+namespace {
+
+struct NamedScene {
+    std::string name;
+    tools::Scene scene;
+    double tolerance = 0.0;
+};
+
+struct NamedTask {
+    const char* name;
+    Task task;
+    tools::QueryRequest (*request)(double tolerance);
+    double reach_in_tolerances;  ///< the reach of boxes within which a pair is queried
+};
+
+constexpr NamedTask pair_tasks[] = {
+    {"vertices", Task::vertex_penetration, benchmark::vertex_penetration, 0.0},
+    {"boundary", Task::boundary_penetration, benchmark::boundary_penetration, 0.0},
+    {"separation", Task::separation, benchmark::separation, 20.0},
+    {"intersection test", Task::intersection_test, benchmark::intersection_test, 0.0},
+    {"area", Task::common_area, benchmark::intersection, 0.0},
+};
+
+bool near_each_other(const Rectangle& a, const Rectangle& b, double reach) {
+    return a.min.x - reach <= b.max.x && b.min.x - reach <= a.max.x && a.min.y - reach <= b.max.y &&
+           b.min.y - reach <= a.max.y;
+}
+
+/// Lists every pair whose boxes are within reach once. All libraries get the same list, so no broad
+/// phase is measured.
+tools::Scene asked_of_pairs(tools::Scene scene, const tools::QueryRequest& request, double reach) {
+    std::vector<PlacedShape> placed;
+    place(scene, placed);
+    for (std::size_t a = 0; a < placed.size(); ++a) {
+        for (std::size_t b = a + 1; b < placed.size(); ++b) {
+            if (near_each_other(placed[a].box, placed[b].box, reach)) {
+                scene.queries.push_back({request, a, b});
+            }
+        }
+    }
+    return scene;
+}
+
+/// The two coast lines are one pair, whatever their distance.
+tools::Scene asked_of(const NamedScene& named, const NamedTask& task) {
+    const tools::QueryRequest request = task.request(named.tolerance);
+    return named.scene.instances.size() == 2
+               ? benchmark::asked(named.scene, request, 0, 1)
+               : asked_of_pairs(named.scene, request, task.reach_in_tolerances * named.tolerance);
+}
+
+/// A field around every object.
+Problem field_of_each(std::string name, tools::Scene scene, double side, std::size_t cells) {
+    for (std::size_t b = 0; b < scene.instances.size(); ++b) {
+        scene.queries.push_back(
+            {benchmark::square_field(scene.instances[b].pose.translation, side, cells), b, b});
+    }
+    return {std::move(name), Task::field, std::move(scene)};
+}
+
+tools::Scene iceland_alone() {
+    tools::Scene scene;
+    benchmark::add_object(scene, benchmark::iceland(), {});
+    return scene;
+}
+
+}  // namespace
+
+std::vector<Problem> all_problems() {
+    constexpr double scene_tolerance = 0.01;
+    constexpr double coast_tolerance = 0.8;
+    const NamedScene scenes[] = {
+        {"gears x1", benchmark::gears_scene(1), scene_tolerance},
+        {"gears x10", benchmark::gears_scene(10), scene_tolerance},
+        {"crowd of 1000", benchmark::crowd_scene(), scene_tolerance},
+        {"coast lines separated", benchmark::coast_lines_scene(-0.1), coast_tolerance},
+        {"coast lines 1 % overlap", benchmark::coast_lines_scene(0.01), coast_tolerance},
+        {"coast lines 10 % overlap", benchmark::coast_lines_scene(0.1), coast_tolerance},
+    };
+    std::vector<Problem> problems;
+    for (const NamedTask& task : pair_tasks) {
+        for (const NamedScene& scene : scenes) {
+            problems.push_back({scene.name + ", " + task.name, task.task, asked_of(scene, task)});
+        }
+    }
+    problems.push_back(
+        field_of_each("gears x1, fields 64 x 64", benchmark::gears_scene(1), 2.2, 64));
+    problems.push_back(
+        field_of_each("gears x10, fields 64 x 64", benchmark::gears_scene(10), 2.2, 64));
+    problems.push_back(
+        field_of_each("crowd of 1000, fields 32 x 32", benchmark::crowd_scene(), 2.2, 32));
+    problems.push_back(field_of_each("Iceland, field 256 x 256", iceland_alone(), 600.0, 256));
+    problems.push_back(field_of_each("Iceland, field 1024 x 1024", iceland_alone(), 600.0, 1024));
+    return problems;
 }
 
 }  // namespace nearfield::peers

@@ -35,12 +35,7 @@ void write_spread(JsonWriter& json, std::string_view name, const benchmark::Spre
 
 void write_quickest(JsonWriter& json, std::string_view name, const std::optional<double>& quickest,
                     const benchmark::Spread& ours) {
-    json.key(name);
-    if (quickest) {
-        json.value(*quickest / ours.median);
-    } else {
-        json.null();
-    }
+    json.member(name, quickest.value_or(0.0) / ours.median, quickest.has_value());
 }
 
 void write_peer(JsonWriter& json, const PeerTimes& peer) {
@@ -118,8 +113,25 @@ void write_notes(std::ostream& stream, std::span<const ProblemTimes> table) {
     }
 }
 
+void write_worlds(std::ostream& stream, std::span<const WorldTimes> table) {
+    stream << "\n| question | nearfield, ms | others: ms (times nearfield's) |\n|---|---|---|\n";
+    for (const WorldTimes& times : table) {
+        stream << "| " << times.name << " | " << digits(times.nearfield_ms.median) << " |";
+        for (const WorldPeerTimes& peer : times.peers) {
+            stream << ' ' << peer.name << ": " << digits(peer.ms.median) << " ("
+                   << times_as_long(peer.ms.median, times.nearfield_ms) << ") " << peer.how;
+            if (peer.apart > 0) {
+                stream << "; " << peer.apart << " answers differ by more than its rounding";
+            }
+            stream << " |";
+        }
+        stream << '\n';
+    }
+}
+
 void write_json(std::ostream& stream, std::span<const ProblemTimes> table,
-                const benchmark::Machine& machine, const std::string& device) {
+                std::span<const WorldTimes> worlds, const benchmark::Machine& machine,
+                const std::string& device) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     json.member("commit", machine.commit);
@@ -144,6 +156,19 @@ void write_json(std::ostream& stream, std::span<const ProblemTimes> table,
         write_quickest(json, "quickest_kept_to_nearfield", times.quickest(&PeerTimes::kept_ms),
                        times.kept_ms);
         json.end_object();
+    });
+    json.list("worlds", worlds, [&json](const WorldTimes& times) {
+        json.begin_object(JsonWriter::Layout::lines);
+        json.member("name", times.name);
+        write_spread(json, "nearfield_ms", times.nearfield_ms);
+        json.key("peers").begin_object(JsonWriter::Layout::lines);
+        for (const WorldPeerTimes& peer : times.peers) {
+            json.key(peer.name).begin_object();
+            json.member("how", peer.how).member("apart", peer.apart);
+            write_spread(json, "ms", peer.ms);
+            json.end_object();
+        }
+        json.end_object().end_object();
     });
     json.end_object();
     stream << '\n';

@@ -2,7 +2,7 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
-#include <tools/peers/worlds/contest.hpp>
+#include <tools/peers/world_contest.hpp>
 
 #include <algorithm>
 #include <cmath>

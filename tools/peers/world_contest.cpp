@@ -1,29 +1,126 @@
-// Compares worlds of nearfield with libraries that keep an index too: the same world, built once,
-// the same questions, one core, in alternating turns. All answers are compared first.
-//   bench_world_peers [--filter TEXT]
-
 #include <nearfield/nearfield.hpp>
 
-#include <CLI/CLI.hpp>
-#include <sched.h>
-#include <tools/benchmark/interleave.hpp>
-#include <tools/benchmark/machine.hpp>
-#include <tools/benchmark/milliseconds_of.hpp>
-#include <tools/benchmark/spread.hpp>
+#include <tools/benchmark/measuring.hpp>
+#include <tools/benchmark/workloads.hpp>
 #include <tools/common/library_error.hpp>
-#include <tools/peers/worlds/contest.hpp>
+#include <tools/peers/world_contest.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <iomanip>
-#include <iostream>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace nearfield::peers {
+namespace {
+
+using benchmark::Random;
+
+constexpr double whole_turn = 2.0 * std::numbers::pi;
+
+Pose anywhere(Random& random, const Vector2& low, const Vector2& high) {
+    return {{random.between(low.x, high.x), random.between(low.y, high.y)},
+            random.between(0.0, whole_turn)};
+}
+
+/// 48 items of 21 vertices side by side, and another one at many poses among and beside them.
+WorldProblem layout() {
+    WorldProblem problem;
+    problem.name = "48 items, 1,008 vertices: an item at 1,000,000 poses, hit or not";
+    Random random(41);
+    for (int i = 0; i < 48; ++i) {
+        problem.shapes.push_back(
+            {{benchmark::star(random, 21)},
+             {{2.1 * (i % 8), 2.1 * (i / 8)}, random.between(0.0, whole_turn)}});
+    }
+    problem.item = {benchmark::star(random, 21)};
+    for (int i = 0; i < 1'000'000; ++i) {
+        problem.poses.push_back(anywhere(random, {-4.0, -4.0}, {32.0, 20.0}));
+    }
+    return problem;
+}
+
+/// Paths of a footprint over coast lines: both islands twice, 10,612 edges in all.
+WorldProblem paths() {
+    WorldProblem problem;
+    problem.name = "112,000 footprints of 12 vertices, 10,612 edges: least distances";
+    problem.asks_distances = true;
+    problem.shapes = {{benchmark::iceland(), {{0.0, 0.0}, 0.0}},
+                      {benchmark::ireland(), {{600.0, 0.0}, 0.0}},
+                      {benchmark::iceland(), {{0.0, 600.0}, 2.0}},
+                      {benchmark::ireland(), {{600.0, 600.0}, 4.0}}};
+    Ring footprint;
+    for (int i = 0; i < 12; ++i) {
+        const double angle = whole_turn * i / 12.0;
+        footprint.push_back({4.0 * std::cos(angle), 2.0 * std::sin(angle)});
+    }
+    problem.item = {footprint};
+    Random random(43);
+    for (int path = 0; path < 2000; ++path) {
+        Pose pose = anywhere(random, {-400.0, -400.0}, {1000.0, 1000.0});
+        const double bend = random.between(-0.1, 0.1);
+        for (int i = 0; i < 56; ++i) {
+            problem.poses.push_back(pose);
+            pose.translation.x += 2.0 * std::cos(pose.angle);
+            pose.translation.y += 2.0 * std::sin(pose.angle);
+            pose.angle += bend;
+        }
+    }
+    return problem;
+}
+
+WorldProblem many_polygons() {
+    WorldProblem problem;
+    problem.name = "100,000 polygons of 50 vertices: the nearest of 1,000,000 points";
+    Random random(47);
+    for (int i = 0; i < 100'000; ++i) {
+        problem.shapes.push_back(
+            {{benchmark::star(random, 50)}, anywhere(random, {0.0, 0.0}, {1000.0, 1000.0})});
+    }
+    for (int i = 0; i < 1'000'000; ++i) {
+        problem.points.push_back(anywhere(random, {0.0, 0.0}, {1000.0, 1000.0}).translation);
+    }
+    return problem;
+}
+
+WorldProblem rays() {
+    WorldProblem problem;
+    problem.name = "map x100, 71,900 edges: the first hit of 1,000,000 rays";
+    const tools::Scene scene = benchmark::map_scene(100);
+    Vector2 low{1e300, 1e300};
+    Vector2 high{-1e300, -1e300};
+    for (const tools::SceneInstance& instance : scene.instances) {
+        problem.shapes.push_back({scene.shapes[instance.shape].rings, instance.pose});
+        for (const Ring& ring : problem.shapes.back().rings) {
+            for (const Vector2& vertex : ring) {
+                const Vector2 at = at_pose(vertex, instance.pose);
+                low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+                high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+            }
+        }
+    }
+    Random random(53);
+    for (int i = 0; i < 1'000'000; ++i) {
+        problem.segments.push_back(
+            {anywhere(random, low, high).translation, anywhere(random, low, high).translation});
+    }
+    return problem;
+}
+
+}  // namespace
+
+Vector2 at_pose(const Vector2& point, const Pose& pose) {
+    const double c = std::cos(pose.angle);
+    const double s = std::sin(pose.angle);
+    return {c * point.x - s * point.y + pose.translation.x,
+            s * point.x + c * point.y + pose.translation.y};
+}
+
+std::vector<WorldProblem> world_problems() {
+    return {layout(), paths(), many_polygons(), rays()};
+}
+
 namespace {
 
 using benchmark::milliseconds_of;
@@ -158,12 +255,14 @@ std::size_t count_apart(const AnswerRange& ours, const std::vector<double>& thei
     return apart;
 }
 
-void race(const WorldProblem& problem) {
+}  // namespace
+
+WorldTimes race(const WorldProblem& problem) {
     OurWorld ours(problem);
+    WorldTimes times{.name = problem.name};
     std::vector<benchmark::Contender> contenders(1);
     contenders[0].frame = [&] { return milliseconds_of([&] { ours.answer(); }); };
     std::vector<std::unique_ptr<WorldPeer>> peers;
-    std::vector<std::size_t> apart;
     std::vector<double> answers;
     for (const auto make : {make_geos_world, make_cgal_world, make_box2d_world}) {
         std::unique_ptr<WorldPeer> peer = make();
@@ -172,61 +271,21 @@ void race(const WorldProblem& problem) {
         }
         peer->build(problem);
         peer->answer(problem, answers);
-        apart.push_back(
-            count_apart(range_of_answers(ours, problem, peer->rounding()), answers, *peer));
+        const AnswerRange range = range_of_answers(ours, problem, peer->rounding());
+        times.peers.push_back({.name = peer->name(),
+                               .how = peer->how(problem),
+                               .apart = count_apart(range, answers, *peer)});
         peers.push_back(std::move(peer));
         contenders.emplace_back().frame = [&problem, &answers, &of = *peers.back()] {
             return milliseconds_of([&] { of.answer(problem, answers); });
         };
     }
     benchmark::measure(contenders, {.milliseconds = 3000.0, .max_frames = 50, .fewest_frames = 2});
-    const double own = benchmark::spread_of(contenders[0].frames_ms).median;
-    std::cout << "| " << problem.name << " | " << own << " |";
+    times.nearfield_ms = benchmark::spread_of(contenders[0].frames_ms);
     for (std::size_t i = 0; i < peers.size(); ++i) {
-        const double other = benchmark::spread_of(contenders[i + 1].frames_ms).median;
-        std::cout << ' ' << peers[i]->name() << ": " << other << " (" << other / own << ") "
-                  << peers[i]->how(problem);
-        if (apart[i] > 0) {
-            std::cout << "; " << apart[i] << " answers differ by more than its rounding";
-        }
-        std::cout << " |";
+        times.peers[i].ms = benchmark::spread_of(contenders[i + 1].frames_ms);
     }
-    std::cout << '\n' << std::flush;
+    return times;
 }
 
-void run(const std::string& filter) {
-    cpu_set_t core;
-    CPU_ZERO(&core);
-    CPU_SET(static_cast<unsigned>(sched_getcpu()), &core);
-    if (sched_setaffinity(0, sizeof core, &core) != 0) {
-        throw std::runtime_error("the process cannot be pinned to a core");
-    }
-    const benchmark::Machine machine = benchmark::this_machine();
-    std::cout << std::setprecision(3) << machine.processor << ", " << machine.date << ", commit "
-              << machine.commit
-              << "\n\n| question | nearfield, ms | others: ms (times nearfield's) |\n"
-              << "|---|---|---|\n";
-    for (const WorldProblem& problem : world_problems()) {
-        if (problem.name.find(filter) != std::string::npos) {
-            race(problem);
-        }
-    }
-}
-
-}  // namespace
 }  // namespace nearfield::peers
-
-int main(int count, char** arguments) {
-    CLI::App program("Worlds of nearfield and of its peers, turn by turn on one core",
-                     "bench_world_peers");
-    std::string filter;
-    program.add_option("--filter", filter, "Only the rows whose names hold this text");
-    CLI11_PARSE(program, count, arguments);
-    try {
-        nearfield::peers::run(filter);
-    } catch (const std::exception& error) {
-        std::cerr << "bench_world_peers: " << error.what() << '\n';
-        return 1;
-    }
-    return 0;
-}

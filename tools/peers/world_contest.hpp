@@ -2,6 +2,8 @@
 
 #include <nearfield/world.hpp>
 
+#include <tools/benchmark/measuring.hpp>
+
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -62,5 +64,23 @@ public:
 
 /// The problems of all rows.
 [[nodiscard]] std::vector<WorldProblem> world_problems();
+
+/// How long a peer takes.
+struct WorldPeerTimes {
+    std::string name;
+    std::string how;
+    std::size_t apart = 0;  ///< answers that differ by more than its rounding
+    benchmark::Spread ms = {};
+};
+/// A measured row.
+struct WorldTimes {
+    std::string name;
+    benchmark::Spread nearfield_ms = {};
+    std::vector<WorldPeerTimes> peers = {};
+};
+
+/// Measures nearfield and all peers that answer a problem. Throws std::runtime_error if their
+/// answers differ by more than rounding explains.
+[[nodiscard]] WorldTimes race(const WorldProblem& problem);
 
 }  // namespace nearfield::peers

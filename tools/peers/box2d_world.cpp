@@ -1,6 +1,6 @@
 #include <box2d/box2d.h>
 #include <tools/peers/convex_pieces.hpp>
-#include <tools/peers/worlds/contest.hpp>
+#include <tools/peers/world_contest.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <geos_c.h>
-#include <tools/peers/worlds/contest.hpp>
+#include <tools/peers/world_contest.hpp>
 
 #include <algorithm>
 #include <limits>
