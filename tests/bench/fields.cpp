@@ -1,153 +1,101 @@
-// Measures distance fields, of 1024 x 1024 cells but for many small ones, by the techniques compute
-// and cpu, and prints a table in Markdown, medians: what the calling thread does until the
-// submission, in wall-clock time and in time of its processor; the device; the whole frame; and the
-// processor time of all threads, a software driver's included, which depends less on other load.
+// Distance fields, of 1024 x 1024 cells but for many small ones, by the techniques compute and cpu.
+// Time: a whole frame. CPU: of all threads, those of a software device included, which depends less
+// on other load. `submission`: until the calling thread has submitted, its processor's time.
 
 #include <nearfield/nearfield.hpp>
 
-#include <tests/bench/clocks.hpp>
-#include <tests/bench/take.hpp>
+#include <tests/bench/bench.hpp>
 #include <tests/support/polygons.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <ctime>
-#include <exception>
-#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
 
+namespace nearfield::bench {
 namespace {
 
-using namespace nearfield;
-using bench::median;
-using bench::processor_milliseconds;
-using bench::require;
-using bench::take;
-
-constexpr int frames = 21;
-
-struct Scene {
+/// What is asked about a coast or a star: values, features too, or a number of points.
+struct Field {
     std::string name;
-    test::Rings rings;
+    int coast_vertices = 0;  ///< 0: a star of 50 vertices
     bool features = false;
     int points = 0;
-    std::uint64_t small_fields = 0;
 };
 
-/// A field of 1024 x 1024 cells, or of a part of it at points.
-DistanceFieldQuery large_field(Context& context, const Scene& scene,
-                               const std::vector<Vector2>& points) {
-    constexpr double cells = 1024.0;
+DistanceFieldQuery field_of(const test::Rings& rings, Context& context, double half, double cells) {
     DistanceFieldQuery query;
-    query.b = {take(context.add_shape(scene.rings)), {{0.01, -0.02}, 0.2}};
-    query.rectangle = Rectangle{{-1.5, -1.5}, {1.5, 1.5}};
-    query.tolerance = 3.0 / (cells - 0.5) / std::numbers::sqrt2;
-    query.features = scene.features;
+    query.b = {take(context.add_shape(rings)), {{}, 0.2}};
+    query.rectangle = Rectangle{{-half, -half}, {half, half}};
+    query.tolerance = 2.0 * half / (cells - 0.5) / std::numbers::sqrt2;
+    return query;
+}
+
+/// `points` must outlive the query.
+DistanceFieldQuery large_field(Context& context, const Field& field, std::vector<Vector2>& points) {
+    test::Random random(2);
+    DistanceFieldQuery query =
+        field_of(field.coast_vertices > 0 ? test::coast(random, field.coast_vertices, 0.5)
+                                          : test::star(random, 50, 0.4),
+                 context, 1.5, 1024.0);
+    query.b.pose.translation = {0.01, -0.02};
+    query.features = field.features;
+    for (int i = 0; i < field.points; ++i) {
+        points.push_back({random.between(-1.4, 1.4), random.between(-1.4, 1.4)});
+    }
     query.points = points;
     query.values = points.empty();
     return query;
 }
 
-/// A field of 32 x 32 cells.
-DistanceFieldQuery small_field(Context& context, std::uint64_t seed) {
-    constexpr double cells = 32.0;
-    test::Random random(seed);
-    DistanceFieldQuery query;
-    query.b = {take(context.add_shape(test::star(random, 50, 0.4))), {{}, 0.2}};
-    query.rectangle = Rectangle{{-1.1, -1.1}, {1.1, 1.1}};
-    query.tolerance = 2.2 / (cells - 0.5) / std::numbers::sqrt2;
-    return query;
+/// `make(context, points)` makes the queries, and the points that they ask about.
+template <class Make>
+void add_fields(const std::string& name, Make make) {
+    for (const Technique technique : {Technique::compute, Technique::cpu}) {
+        add("fields/" + name + "/" + to_string(technique), 21,
+            [=](State& state) {
+                Context context = take(Context::create_headless());
+                Batch batch;
+                std::vector<Vector2> points;
+                for (DistanceFieldQuery& query : make(context, points)) {
+                    query.technique = technique;
+                    batch.add(query);
+                }
+                Results results;
+                run(state, [&]() -> Numbers {
+                    const double start = processor_milliseconds();
+                    const Ticket ticket = take(context.submit(batch));
+                    const double submitted = processor_milliseconds();
+                    require(context.collect(ticket, results));
+                    return {{"submission ms", submitted - start},
+                            {"device ms", results.timings.device}};
+                });
+            })
+            ->MeasureProcessCPUTime()
+            ->UseRealTime();
+    }
 }
 
-void measure(Context& context, const Scene& scene, Technique technique, bool passes) {
-    std::vector<Vector2> points;
-    test::Random random(4);
-    for (int i = 0; i < scene.points; ++i) {
-        points.push_back({random.between(-1.4, 1.4), random.between(-1.4, 1.4)});
+const bool are_added = [] {
+    for (const Field& field :
+         {Field{"coast, 8,000 vertices", 8000}, Field{"the same with features", 8000, true},
+          Field{"1,000 points of it", 8000, false, 1000}, Field{"star, 50 vertices"},
+          Field{"coast, 100,000 vertices", 100'000}}) {
+        add_fields(field.name, [field](Context& context, std::vector<Vector2>& points) {
+            return std::vector<DistanceFieldQuery>{large_field(context, field, points)};
+        });
     }
-    Batch batch;
-    const auto add = [&](DistanceFieldQuery query) {
-        query.technique = technique;
-        batch.add(query);
-    };
-    for (std::uint64_t i = 0; i < scene.small_fields; ++i) {
-        add(small_field(context, i));
-    }
-    if (scene.small_fields == 0) {
-        add(large_field(context, scene, points));
-    }
-    Results results;
-    std::vector<double> submitted, processor, device, whole, all;
-    std::map<std::string, std::vector<double>> by_pass;
-    for (int frame = 0; frame < frames + 2; ++frame) {
-        const auto start = std::chrono::steady_clock::now();
-        const auto since_start = [&] {
-            return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() -
-                                                             start)
-                .count();
-        };
-        const double processor_start = processor_milliseconds(CLOCK_THREAD_CPUTIME_ID);
-        const double all_start = processor_milliseconds(CLOCK_PROCESS_CPUTIME_ID);
-        const Ticket ticket = take(context.submit(batch));
-        const double until_submitted = since_start();
-        const double processor_end = processor_milliseconds(CLOCK_THREAD_CPUTIME_ID);
-        require(context.collect(ticket, results));
-        if (frame >= 2) {
-            submitted.push_back(until_submitted);
-            processor.push_back(processor_end - processor_start);
-            device.push_back(results.timings.device);
-            whole.push_back(since_start());
-            all.push_back(processor_milliseconds(CLOCK_PROCESS_CPUTIME_ID) - all_start);
-            for (const PassTime& pass : results.timings.passes) {
-                by_pass[pass.name].push_back(pass.milliseconds);
-            }
-        }
-    }
-    std::printf("| %s | %s | %.3f | %.3f | %.1f | %.1f | %.1f |\n", scene.name.c_str(),
-                to_string(technique), median(submitted), median(processor), median(device),
-                median(whole), median(all));
-    if (passes) {
-        for (const auto& [name, times] : by_pass) {
-            std::printf("|   %s | | | | %.2f | | |\n", name.c_str(), median(times));
-        }
-    }
-    std::fflush(stdout);
-}
+    add_fields("1,000 stars, 32 x 32 cells each",
+               [](Context& context, std::vector<Vector2>& /*points*/) {
+                   std::vector<DistanceFieldQuery> queries;
+                   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+                       test::Random random(seed);
+                       queries.push_back(field_of(test::star(random, 50, 0.4), context, 1.1, 32.0));
+                   }
+                   return queries;
+               });
+    return true;
+}();
 
 }  // namespace
-
-/// With --passes also the times of the device's passes.
-int main(int argc, char** argv) {
-    try {
-        const bool passes = argc > 1 && std::strcmp(argv[1], "--passes") == 0;
-        Settings settings;
-        settings.timestamps = passes;
-        test::Random random(2);
-        const std::vector<Scene> scenes{
-            {"coast, 8,000 vertices", test::coast(random, 8000, 0.5)},
-            {"the same with features", test::coast(random, 8000, 0.5), true},
-            {"1,000 points of it", test::coast(random, 8000, 0.5), false, 1000},
-            {"star, 50 vertices", test::star(random, 50, 0.4)},
-            {"1,000 stars, 32 x 32 cells each", {}, false, 0, 1000},
-            {"coast, 100,000 vertices", test::coast(random, 100000, 0.5)},
-        };
-        std::puts(
-            "| field | technique | to the submission, ms | of it processor | device | whole | "
-            "processor time of all threads |\n"
-            "|---|---|---|---|---|---|---|");
-        for (const Scene& scene : scenes) {
-            Context context = take(Context::create_headless({}, settings));
-            measure(context, scene, Technique::compute, passes);
-            measure(context, scene, Technique::cpu, passes);
-        }
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
-}
+}  // namespace nearfield::bench

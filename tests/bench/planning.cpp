@@ -1,18 +1,14 @@
-// Measures the CPU time for planning a batch and building its tile batches, without a device, and
-// prints a table in Markdown: many pairs, a tolerance that gives thousands of tiles, a large field,
-// a large shape in many queries.
+// The CPU time for planning a batch and building its tile batches, without a device: many pairs, a
+// tolerance that gives thousands of tiles, a large field, a large shape in many queries.
 
 #include <engine/plan/planner.hpp>
 #include <engine/raster/drawn_batch_builder.hpp>
 #include <engine/raster/point_planner.hpp>
 
+#include <tests/bench/bench.hpp>
 #include <tests/support/checked_queries.hpp>
 #include <tests/support/outlines.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <ctime>
 #include <deque>
 #include <filesystem>
 #include <numbers>
@@ -21,22 +17,12 @@
 #include <string>
 #include <vector>
 
+namespace nearfield::bench {
 namespace {
 
-using namespace nearfield;
 using test::Random;
 
-/// The time of this thread only, because other load must not count.
-double processor_milliseconds() {
-    timespec now{};
-    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) {
-        throw std::runtime_error("no processor time");
-    }
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 struct Scene {
-    std::string name;
     std::deque<geometry::Polygon> shapes;
     std::vector<AnyQuery> queries;
 
@@ -49,10 +35,7 @@ struct Scene {
 };
 
 Scene pairs(PenetrationPoints points) {
-    Scene scene{points == PenetrationPoints::vertices ? "10,000 pairs, vertices"
-                                                      : "10,000 pairs, boundary points",
-                {},
-                {}};
+    Scene scene;
     Random random(1);
     for (int i = 0; i < 1000; ++i) {
         scene.add(test::star(random, 50, 0.4));
@@ -74,7 +57,7 @@ Scene pairs(PenetrationPoints points) {
 }
 
 Scene outlines(const std::filesystem::path& data) {
-    Scene scene{"Iceland in Ireland, d = 0.005", {}, {}};
+    Scene scene;
     PenetrationQuery query;
     query.a = {scene.add(test::read_outline(data / "iceland_10m.geojson").rings), {}};
     query.b = {scene.add(test::read_outline(data / "ireland_10m.geojson").rings),
@@ -86,7 +69,7 @@ Scene outlines(const std::filesystem::path& data) {
 }
 
 Scene field() {
-    Scene scene{"field with features, coast of 20,000 vertices", {}, {}};
+    Scene scene;
     Random random(2);
     DistanceFieldQuery query;
     query.b = {scene.add(test::coast(random, 20000, 0.5)), {{}, 0.2}};
@@ -99,7 +82,7 @@ Scene field() {
 }
 
 Scene instances() {
-    Scene scene{"2,000 stars along a coast of 20,000 vertices", {}, {}};
+    Scene scene;
     Random random(3);
     const test::Rings big = test::coast(random, 20000, 0.5);
     const ShapeHandle coast = scene.add(big);
@@ -116,7 +99,8 @@ Scene instances() {
     return scene;
 }
 
-void measure(const Scene& scene, int frames) {
+/// Time: of both.
+void measure(State& state, const Scene& scene) {
     plan::PlanLimits limits;
     limits.memory = std::uint64_t{8} << 30U;
     plan::Planner planner(limits);
@@ -127,13 +111,9 @@ void measure(const Scene& scene, int frames) {
     raster::DrawnBatchBuilder builder(limits.subpixel);
     plan::Plan plan;
     std::vector<raster::DrawnBatch> batches;
-    std::uint32_t tile_batches = 0;
     std::vector<plan::QueryShapes> shapes;
     std::vector<AnyResult> results;
-    double planned = HUGE_VAL;
-    double built = HUGE_VAL;
-    std::size_t vertices = 0;
-    for (int frame = 0; frame < frames; ++frame) {
+    run(state, [&]() -> Numbers {
         const double start = processor_milliseconds();
         plan::find_shapes(
             scene.queries,
@@ -143,9 +123,9 @@ void measure(const Scene& scene, int frames) {
             shapes);
         test::plan_all(test::checked_queries(scene.queries, shapes, limits, results), plan_drawn,
                        planner, plan, results);
-        const double middle = processor_milliseconds();
-        vertices = 0;
-        tile_batches = builder.build(plan, batches);
+        const double planned = processor_milliseconds();
+        std::size_t vertices = 0;
+        const std::uint32_t tile_batches = builder.build(plan, batches);
         for (const raster::DrawnBatch& batch : std::span(batches).first(tile_batches)) {
             for (const geometry::Mesh& mesh : batch.meshes.meshes()) {
                 vertices += mesh.size();
@@ -154,29 +134,26 @@ void measure(const Scene& scene, int frames) {
                 vertices += mesh.size();
             }
         }
-        planned = std::min(planned, middle - start);
-        built = std::min(built, processor_milliseconds() - middle);
-    }
-    std::printf("| %s | %zu | %u | %zu | %.1f | %.1f |\n", scene.name.c_str(), plan.tiles.size(),
-                tile_batches, vertices, planned, built);
-    std::fflush(stdout);
+        return {{"localize and plan ms", planned - start},
+                {"build ms", processor_milliseconds() - planned},
+                {"tiles", static_cast<double>(plan.tiles.size())},
+                {"tile batches", tile_batches},
+                {"mesh vertices", static_cast<double>(vertices)}};
+    });
 }
+
+void add_scene(const std::string& name, Scene (*make)()) {
+    add("plan/" + name, 5, [make](State& state) { measure(state, make()); });
+}
+
+const bool are_added = [] {
+    add_scene("10,000 pairs, vertices", [] { return pairs(PenetrationPoints::vertices); });
+    add_scene("10,000 pairs, boundary points", [] { return pairs(PenetrationPoints::boundary); });
+    add_scene("Iceland in Ireland, d = 0.005", [] { return outlines(NEARFIELD_TEST_DATA); });
+    add_scene("field with features, coast of 20,000 vertices", field);
+    add_scene("2,000 stars along a coast of 20,000 vertices", instances);
+    return true;
+}();
 
 }  // namespace
-
-int main() {
-    try {
-        std::puts(
-            "| scene | tiles | tile batches | mesh vertices | localise and plan, ms | build, ms |\n"
-            "|---|---|---|---|---|---|");
-        measure(pairs(PenetrationPoints::vertices), 5);
-        measure(pairs(PenetrationPoints::boundary), 5);
-        measure(outlines(NEARFIELD_TEST_DATA), 5);
-        measure(field(), 5);
-        measure(instances(), 5);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
-}
+}  // namespace nearfield::bench

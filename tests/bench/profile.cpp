@@ -6,8 +6,8 @@
 #include <engine/gpu/submission.hpp>
 #include <nearfield/vulkan.hpp>
 
+#include <tests/bench/bench.hpp>
 #include <tests/bench/pass_calls.hpp>
-#include <tests/bench/take.hpp>
 #include <tests/support/fake_loader.hpp>
 #include <tests/support/outlines.hpp>
 #include <tests/support/polygons.hpp>

@@ -1,45 +1,26 @@
-// Measures Context::record() of 1,000 pairs, from the queries to the recorded commands, and prints
-// a table in Markdown.
+// Context::record() of 1,000 pairs, from the queries to the recorded commands.
 
 #include <engine/gpu/headless.hpp>
 #include <nearfield/vulkan.hpp>
 
-#include <tests/bench/clocks.hpp>
-#include <tests/bench/take.hpp>
+#include <tests/bench/bench.hpp>
 #include <tests/support/host_frames.hpp>
 #include <tests/support/polygons.hpp>
 
-#include <algorithm>
 #include <cstdint>
-#include <cstdio>
-#include <ctime>
-#include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
+namespace nearfield::bench {
 namespace {
-
-using nearfield::bench::processor_milliseconds;
-using nearfield::bench::take;
-
-using nearfield::Batch;
-using nearfield::Context;
-using nearfield::PenetrationPoints;
-using nearfield::PenetrationQuery;
-using nearfield::Technique;
-
-constexpr std::uint64_t warm_up = 2;
-constexpr std::uint64_t frames = 10;
 
 /// 1,000 pairs of stars of 50 vertices, 32 x 32 cells each.
 Batch pairs(Context& context, Technique technique, PenetrationPoints points) {
     Batch batch;
     for (std::uint64_t i = 0; i < 1000; ++i) {
-        nearfield::test::Random random(i);
+        test::Random random(i);
         PenetrationQuery query;
-        query.a = {take(context.add_shape(nearfield::test::star(random, 50, 0.5))), {}};
-        query.b = {take(context.add_shape(nearfield::test::star(random, 50, 0.5))),
+        query.a = {take(context.add_shape(test::star(random, 50, 0.5))), {}};
+        query.b = {take(context.add_shape(test::star(random, 50, 0.5))),
                    {{0.9, 0.2}, random.between(0.0, 6.0)}};
         query.tolerance = 1.4 / 32.0 / 1.414;
         query.points = points;
@@ -49,54 +30,50 @@ Batch pairs(Context& context, Technique technique, PenetrationPoints points) {
     return batch;
 }
 
-void measure(const nearfield::HostDevice& device, Technique technique, PenetrationPoints points) {
-    Context context = take(Context::create(device));
+void measure(State& state, Technique technique, PenetrationPoints points) {
+    const gpu::HeadlessDevice device({});
+    Context context = take(Context::create(device.host()));
     const Batch batch = pairs(context, technique, points);
-    nearfield::test_support::HostFrames host(device, 1);
-    nearfield::Results results;
-    std::vector<double> whole;
-    for (std::uint64_t frame = 0; frame < warm_up + frames; ++frame) {
-        const VkCommandBuffer commands = host.begin(frame);
-        const double start = processor_milliseconds();
-        const nearfield::Ticket ticket =
-            take(context.record(batch, {.commands = commands, .frame = frame}));
-        const double end = processor_milliseconds();
-        host.submit(frame);
-        host.wait(frame);
-        context.frame_completed(frame);
-        if (const nearfield::Status status = context.collect(ticket, results); !status.ok()) {
-            throw std::runtime_error(status.text());
+    test_support::HostFrames host(device.host(), 1);
+    Results results;
+    std::uint64_t frame = 0;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    Ticket ticket;
+    const auto finish = [&] {
+        if (commands != VK_NULL_HANDLE) {
+            host.submit(frame);
+            host.wait(frame);
+            context.frame_completed(frame);
+            require(context.collect(ticket, results));
+            ++frame;
         }
-        if (frame >= warm_up) {
-            whole.push_back(end - start);
+    };
+    const auto begin_next = [&] {
+        finish();
+        commands = host.begin(frame);
+    };
+    run(state, begin_next, [&]() -> Numbers {
+        ticket = take(context.record(batch, {.commands = commands, .frame = frame}));
+        return {{"localize ms", results.timings.localize},  // of the frame before
+                {"plan ms", results.timings.plan},
+                {"record ms", results.timings.record}};
+    });
+    finish();
+}
+
+const bool are_added = [] {
+    for (const bool vertices : {true, false}) {
+        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+            add(std::string("record/1,000 pairs, ") + (vertices ? "vertices/" : "samples/") +
+                    to_string(technique),
+                10, [=](State& state) {
+                    measure(state, technique,
+                            vertices ? PenetrationPoints::vertices : PenetrationPoints::boundary);
+                });
         }
     }
-    std::sort(whole.begin(), whole.end());
-    const nearfield::Timings& last = results.timings;
-    std::printf("| %s | %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n",
-                points == PenetrationPoints::vertices ? "vertices" : "boundary samples",
-                to_string(technique), whole.front(), whole[frames / 2], last.localize, last.plan,
-                last.record);
-    std::fflush(stdout);
-}
+    return true;
+}();
 
 }  // namespace
-
-int main() {
-    try {
-        const nearfield::gpu::HeadlessDevice device({});
-        std::puts(
-            "| 1,000 pairs, penetration | technique | record(), least ms | median | localize | "
-            "plan | record |\n|---|---|---|---|---|---|---|");
-        for (const PenetrationPoints points :
-             {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
-            for (const Technique technique :
-                 {Technique::raster, Technique::compute, Technique::cpu}) {
-                measure(device.host(), technique, points);
-            }
-        }
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "bench_recording: %s\n", error.what());
-        return 1;
-    }
-}
+}  // namespace nearfield::bench

@@ -1,37 +1,27 @@
-// Measures how the time of a frame grows with the number of edges for the technique cpu, as a table
-// in Markdown: simple shapes, and shapes for which many data structures degenerate to brute force.
-// Both shapes are submitted anew each frame. The last column is the exponent from the second size
-// to the third; 1 means linear growth. A second table has families that are awkward for boxes, by
-// every technique.
+// How the time of a frame grows with the number of edges: for the technique cpu simple shapes, and
+// shapes for which many data structures degenerate to brute force, both submitted anew each frame;
+// and families that are awkward for boxes, by every technique. The fit ("BigO") says how it grows.
 
 #include <nearfield/nearfield.hpp>
 
-#include <tests/bench/awkward_families.hpp>
-#include <tests/bench/take.hpp>
+#include <tests/bench/bench.hpp>
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <functional>
-#include <stdexcept>
+#include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
+namespace nearfield::bench {
 namespace {
 
-using nearfield::bench::require;
-using nearfield::bench::take;
-
-using namespace nearfield;
 using test::Random;
 using test::Rings;
 
-constexpr std::array<int, 3> sizes{2000, 8000, 32000};
-constexpr int frames = 5;
+constexpr std::int64_t largest = 32000;
 // Shapes are about 20 across.
 constexpr double tolerance = 0.05;
 
@@ -106,12 +96,6 @@ Rings coast(int edges) {
     return grown(test::coast(random, edges, 0.3), 8.0);
 }
 
-struct Family {
-    const char* name;
-    Rings (*make)(int edges);
-    Pose pose;  // of the second shape, so that the two overlap
-};
-
 struct Question {
     const char* name;
     std::function<void(Batch&, const Instance& a, const Instance& b)> add;
@@ -152,64 +136,133 @@ std::vector<Question> questions() {
              }}};
 }
 
-/// The minimum over a few frames.
-double measure(Context& context, const Rings& rings, const Pose& pose, const Question& question) {
-    using Clock = std::chrono::steady_clock;
+/// Two instances of one shape, whose vertices are passed anew each frame. `add_query(a, b, batch)`.
+template <class AddQuery>
+void measure(State& state, const Rings& rings, const AddQuery& add_query) {
+    Context context = take(Context::create_headless());
     const ShapeHandle a = take(context.add_shape(rings));
     const ShapeHandle b = take(context.add_shape(rings));
     Batch batch;
     Results results;
-    double least = INFINITY;
-    for (int i = 0; i < frames; ++i) {
-        const Clock::time_point start = Clock::now();
+    run(state, [&]() -> Numbers {
         require(context.update_shape(a, rings));
         require(context.update_shape(b, rings));
         batch.clear();
-        question.add(batch, {a, {}}, {b, pose});
+        add_query(batch, a, b);
         require(context.run(batch, results));
-        least = std::min(least,
-                         std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-    }
-    std::visit([](const auto& result) { require(result.status); }, results.results.front());
-    require(context.remove_shape(a));
-    require(context.remove_shape(b));
-    return least;
+        double count = 0.0;
+        std::visit(
+            [&](const auto& result) {
+                require(result.status);
+                if constexpr (requires { result.count; }) {
+                    count = static_cast<double>(result.count);
+                }
+            },
+            results.results.front());
+        return {{"answers", count}};
+    });
+    state.SetComplexityN(state.range(0));
 }
+
+/// `pose`: of the second shape, so that the two overlap.
+void add_family(const std::string& name, Rings (*make)(int edges), const Pose& pose) {
+    for (const Question& question : questions()) {
+        add("scaling/" + name + ", " + question.name, 5,
+            [=](State& state) {
+                measure(state, make(static_cast<int>(state.range(0))),
+                        [&](Batch& batch, ShapeHandle a, ShapeHandle b) {
+                            question.add(batch, {a, {}}, {b, pose});
+                        });
+            })
+            ->Arg(2000)
+            ->Arg(8000)
+            ->Arg(largest)
+            ->Complexity();
+    }
+}
+
+// Awkward shapes are 2 across.
+constexpr double fine = 0.02;
+
+Ring regular_ring(int vertices, double (*radius)(int vertex), double scale) {
+    Ring ring;
+    for (int i = 0; i < vertices; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / vertices;
+        ring.push_back({scale * radius(i) * std::cos(angle), scale * radius(i) * std::sin(angle)});
+    }
+    return ring;
+}
+
+Rings nested_pentagons(int rings) {
+    Rings all;
+    for (int i = 0; i < rings; ++i) {
+        all.push_back(regular_ring(
+            5, [](int) { return 1.0; }, 1.0 - static_cast<double>(i) / rings));
+    }
+    return all;
+}
+
+Rings star_of_spikes(int spikes) {
+    return {regular_ring(
+        2 * spikes, [](int i) { return i % 2 == 0 ? 1.0 : 0.5; }, 1.0)};
+}
+
+void add_query(bool contacts, Technique technique, const Instance& a, const Instance& b,
+               Batch& batch) {
+    if (contacts) {
+        ContactQuery query{a, b, fine};
+        query.contact_distance = 2.0 * fine;
+        query.summary_only = true;
+        query.technique = technique;
+        batch.add(query);
+    } else {
+        PenetrationQuery query{a, b, fine};
+        query.summary_only = true;
+        query.technique = technique;
+        batch.add(query);
+    }
+}
+
+/// CPU: of all threads, those of a software device included.
+void add_awkward(const std::string& name, Rings (*make)(int size),
+                 const std::vector<std::int64_t>& sizes, const std::vector<Technique>& techniques,
+                 const Pose& pose) {
+    for (const bool contacts : {true, false}) {
+        for (const Technique technique : techniques) {
+            auto* const added =
+                add("awkward/" + name + (contacts ? ", contacts/" : ", penetration/") +
+                        to_string(technique),
+                    2, [=](State& state) {
+                        measure(state, make(static_cast<int>(state.range(0))),
+                                [&](Batch& batch, ShapeHandle a, ShapeHandle b) {
+                                    add_query(contacts, technique, {a, {}}, {b, pose}, batch);
+                                });
+                    });
+            for (const std::int64_t size : sizes) {
+                added->Arg(size);
+            }
+            added->MeasureProcessCPUTime()->Complexity();
+        }
+    }
+}
+
+const bool are_added = [] {
+    const double half_tooth = 0.25 * 20.0 / (largest / 4);
+    add_family("comb in a comb", comb, {{half_tooth, 4.9}, 0.0});
+    add_family("saw on a saw", saw, {{0.01, 0.2}, std::numbers::pi});
+    add_family("islands in any order", islands, {{0.4, 4.1}, 0.3});
+    add_family("plate with holes", plate_with_holes, {{0.4, 4.1}, 0.3});
+    add_family("smooth", smooth, {{0.4, 4.1}, 0.3});
+    add_family("coast", coast, {{0.4, 4.1}, 0.3});
+    add_awkward("nested pentagons with themselves (rings)", nested_pentagons,
+                {250, 500, 1000, 2000}, {Technique::cpu, Technique::compute, Technique::raster},
+                {});
+    add_awkward("two stars that overlap (spikes of each)", star_of_spikes, {5000, 10000, 20000},
+                {Technique::cpu}, {{0.3, 0.2}, 0.0});
+    add_awkward("two stars that overlap (spikes of each)", star_of_spikes, {1250, 2500, 5000},
+                {Technique::compute, Technique::raster}, {{0.3, 0.2}, 0.0});
+    return true;
+}();
 
 }  // namespace
-
-int main() {
-    try {
-        Context context = take(Context::create_headless());
-        const double half_tooth = 0.25 * 20.0 / (sizes.back() / 4);
-        const std::array families{Family{"comb in a comb", comb, {{half_tooth, 4.9}, 0.0}},
-                                  Family{"saw on a saw", saw, {{0.01, 0.2}, 3.14159265358979}},
-                                  Family{"islands in any order", islands, {{0.4, 4.1}, 0.3}},
-                                  Family{"plate with holes", plate_with_holes, {{0.4, 4.1}, 0.3}},
-                                  Family{"smooth", smooth, {{0.4, 4.1}, 0.3}},
-                                  Family{"coast", coast, {{0.4, 4.1}, 0.3}}};
-        std::printf("| shapes | question |");
-        for (const int size : sizes) {
-            std::printf(" %d edges, ms |", size);
-        }
-        std::printf(" exponent |\n|---|---|---|---|---|---|\n");
-        for (const Family& family : families) {
-            for (const Question& question : questions()) {
-                std::array<double, sizes.size()> times{};
-                std::transform(sizes.begin(), sizes.end(), times.begin(), [&](int size) {
-                    return measure(context, family.make(size), family.pose, question);
-                });
-                std::printf("| %s | %s | %.3g | %.3g | %.3g | %.1f |\n", family.name, question.name,
-                            times[0], times[1], times[2],
-                            std::log(times[2] / times[1]) /
-                                std::log(static_cast<double>(sizes[2]) / sizes[1]));
-                std::fflush(stdout);
-            }
-        }
-        bench::print_awkward_families(context);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "bench_scaling: %s\n", error.what());
-        return 1;
-    }
-}
+}  // namespace nearfield::bench

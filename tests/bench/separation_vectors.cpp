@@ -1,87 +1,83 @@
-// Measures the times of separation vectors and the tightness of their bounds, as a table in
-// Markdown: the objects of the paper's scenes, random intersecting pairs of several families, and
-// the outlines of a folder, each against the next.
+// Separation vectors: their times, and how tight their bounds are, for the objects of the paper's
+// scenes, random intersecting pairs of several families, and outlines, each against the next.
 
 #include <nearfield/nearfield.hpp>
 
-#include <tests/bench/take.hpp>
+#include <tests/bench/bench.hpp>
 #include <tests/support/outlines.hpp>
 #include <tools/benchmark/workloads.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <ctime>
 #include <functional>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+namespace nearfield::bench {
 namespace {
 
-using nearfield::bench::take;
-
-using namespace nearfield;
 using test::Random;
 using test::Rings;
 
-constexpr int pairs = 20;
-constexpr int repetitions = 5;
-
-struct Measured {
-    double milliseconds = 0.0;
-    double ratio = 1.0;  // lower bound divided by length
+/// Two shapes, the first at a pose, the second where it is.
+struct Pair {
+    Rings a;
+    Rings b;
+    Pose pose_a = {};
+    Pose pose_b = {};
+    double tolerance = 1e-3;
 };
 
-double processor_milliseconds() {
-    return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+/// The number at a part of the way through a list in ascending order.
+double at(std::vector<double> numbers, double part) {
+    std::sort(numbers.begin(), numbers.end());
+    return numbers[static_cast<std::size_t>(part * static_cast<double>(numbers.size() - 1) + 0.5)];
 }
 
-/// The minimum of some runs; shapes that do not intersect are skipped.
-void measure(Context& context, const Rings& a, const Rings& b, const Pose& pose_a,
-             const Pose& pose_b, double tolerance, std::vector<Measured>& all) {
-    const ShapeHandle shape_a = take(context.add_shape(a));
-    const ShapeHandle shape_b = take(context.add_shape(b));
-    Batch batch;
-    const auto handle =
-        batch.add(SeparationVectorQuery{{shape_a, pose_a}, {shape_b, pose_b}, tolerance});
+/// A frame asks about each pair that intersects. `bound`: the lower bound divided by the length.
+void measure(State& state, const std::vector<Pair>& pairs) {
+    Context context = take(Context::create_cpu());
+    std::vector<Batch> batches;
     Results results;
-    Measured measured{INFINITY, 1.0};
-    for (int i = 0; i < repetitions; ++i) {
-        const double start = processor_milliseconds();
-        if (const Status status = context.run(batch, results); !status.ok()) {
-            throw std::runtime_error(status.text());
+    for (const Pair& pair : pairs) {
+        Batch batch;
+        batch.add(SeparationVectorQuery{{take(context.add_shape(pair.a)), pair.pose_a},
+                                        {take(context.add_shape(pair.b)), pair.pose_b},
+                                        pair.tolerance});
+        require(context.run(batch, results));
+        if (std::get<SeparationVectorResult>(results.results.front()).intersects) {
+            batches.push_back(std::move(batch));
         }
-        measured.milliseconds = std::min(measured.milliseconds, processor_milliseconds() - start);
     }
-    const SeparationVectorResult& result = results[handle];
-    if (!result.status.ok()) {
-        throw std::runtime_error(result.status.text());
+    if (batches.empty()) {
+        throw std::runtime_error("none intersects");
     }
-    if (result.intersects) {
-        // Shapes that touch have a length of a few roundings, and no bound.
-        measured.ratio = result.length > tolerance ? result.lower_bound / result.length : 1.0;
-        all.push_back(measured);
-    }
-    static_cast<void>(context.remove_shape(shape_a));
-    static_cast<void>(context.remove_shape(shape_b));
+    run(state, [&]() -> Numbers {
+        std::vector<double> times;
+        std::vector<double> bounds;
+        for (const Batch& batch : batches) {
+            const double start = processor_milliseconds();
+            require(context.run(batch, results));
+            times.push_back(processor_milliseconds() - start);
+            const auto& result = std::get<SeparationVectorResult>(results.results.front());
+            require(result.status);
+            // Shapes that touch have a length of a few roundings, and no bound.
+            bounds.push_back(result.length > result.tolerance ? result.lower_bound / result.length
+                                                              : 1.0);
+        }
+        return {{"pairs", static_cast<double>(batches.size())},
+                {"median ms", at(times, 0.5)},
+                {"most ms", at(times, 1.0)},
+                {"bound, median", at(bounds, 0.5)},
+                {"bound, worst tenth", at(bounds, 0.1)},
+                {"bound, worst", at(bounds, 0.0)}};
+    });
 }
 
-void print(const std::string& name, std::vector<Measured> all) {
-    if (all.empty()) {
-        throw std::runtime_error(name + ": none intersects");
-    }
-    const auto at = [&all](double part, auto member) {
-        std::sort(all.begin(), all.end(),
-                  [member](const Measured& i, const Measured& j) { return i.*member < j.*member; });
-        return all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1) + 0.5)].*
-               member;
-    };
-    std::printf("| %s | %.2f | %.2f | %.3f | %.3f | %.3f |\n", name.c_str(),
-                at(0.5, &Measured::milliseconds), at(1.0, &Measured::milliseconds),
-                at(0.5, &Measured::ratio), at(0.1, &Measured::ratio), at(0.0, &Measured::ratio));
-    std::fflush(stdout);
+/// `make()` makes the pairs.
+template <class Make>
+void add_pairs(const std::string& name, Make make) {
+    add("separation vectors/" + name, 5, [make](State& state) { measure(state, make()); });
 }
 
 struct Family {
@@ -108,57 +104,56 @@ std::vector<Family> families() {
     return all;
 }
 
-void measure_families(Context& context) {
-    for (const Family& family : families()) {
-        Random random(20);
-        std::vector<Measured> all;
-        for (int i = 0; i < pairs; ++i) {
-            const Rings a = family.make(random);
-            const Rings b = family.make(random);
-            const Pose pose{
-                {random.between(-0.7, 0.7), random.between(-0.7, 0.7)},
-                family.turned ? random.between(-3.0, 3.0) : (i % 2 == 0 ? 0.0 : std::numbers::pi)};
-            measure(context, a, b, pose, {}, 1e-3, all);
-        }
-        print(family.name, all);
-    }
-}
-
-/// The objects of a scene: the pairs that intersect where they are, and each with the next one,
-/// moved to random poses.
-void measure_scene(Context& context, const std::string& name, const tools::Scene& scene) {
-    constexpr double tolerance = 1e-3;
-    const auto rings_of = [&scene](std::size_t instance) -> const Rings& {
-        return scene.shapes[scene.instances[instance].shape].rings;
-    };
-    std::vector<Measured> in_place;
-    std::vector<Measured> anywhere;
+std::vector<Pair> pairs_of(const Family& family) {
+    constexpr int count = 20;
     Random random(20);
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        for (std::size_t k = i + 1; k < scene.instances.size(); ++k) {
-            measure(context, rings_of(i), rings_of(k), scene.instances[i].pose,
-                    scene.instances[k].pose, tolerance, in_place);
-        }
+    std::vector<Pair> pairs;
+    for (int i = 0; i < count; ++i) {
+        const Rings a = family.make(random);
+        const Rings b = family.make(random);
         const double x = random.between(-0.7, 0.7);
         const double y = random.between(-0.7, 0.7);
-        measure(context, rings_of(i), rings_of((i + 1) % scene.instances.size()),
-                {{x, y}, random.between(-3.0, 3.0)}, {}, tolerance, anywhere);
+        pairs.push_back(
+            {a,
+             b,
+             {{x, y},
+              family.turned ? random.between(-3.0, 3.0) : (i % 2 == 0 ? 0.0 : std::numbers::pi)}});
     }
-    print(name + " of the paper", in_place);
-    print(name + ", moved into each other", anywhere);
+    return pairs;
 }
 
-void measure_paper_scenes(Context& context) {
-    measure_scene(context, "map", benchmark::map_scene(1));
-    measure_scene(context, "gears", benchmark::gears_scene(1));
-    measure_scene(context, "links", benchmark::links_scene(1));
-    measure_scene(context, "cars", benchmark::cars_scene(1));
-    measure_scene(context, "wavy bars", benchmark::wavy_scene(1));
+const Rings& rings_of(const tools::Scene& scene, std::size_t instance) {
+    return scene.shapes[scene.instances[instance].shape].rings;
 }
 
-/// Moved so that the centres of the boxes coincide.
-void measure_outlines(Context& context, const std::string& folder) {
-    const std::vector<test::NamedRings> outlines = test::read_outlines(folder);
+/// The pairs of a scene's objects where they are.
+std::vector<Pair> pairs_in_place(const tools::Scene& scene) {
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        for (std::size_t k = i + 1; k < scene.instances.size(); ++k) {
+            pairs.push_back({rings_of(scene, i), rings_of(scene, k), scene.instances[i].pose,
+                             scene.instances[k].pose});
+        }
+    }
+    return pairs;
+}
+
+/// Each object and the next, moved into each other.
+std::vector<Pair> pairs_anywhere(const tools::Scene& scene) {
+    std::vector<Pair> pairs;
+    Random random(20);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const double x = random.between(-0.7, 0.7);
+        const double y = random.between(-0.7, 0.7);
+        pairs.push_back({rings_of(scene, i),
+                         rings_of(scene, (i + 1) % scene.instances.size()),
+                         {{x, y}, random.between(-3.0, 3.0)}});
+    }
+    return pairs;
+}
+
+/// An outline out of another, moved so that the centres of the boxes coincide.
+Pair pair_of(const Rings& a, const Rings& b) {
     const auto box_of = [](const Rings& rings) {
         Rectangle box{rings[0][0], rings[0][0]};
         for (const Ring& ring : rings) {
@@ -169,41 +164,42 @@ void measure_outlines(Context& context, const std::string& folder) {
         }
         return box;
     };
+    const Rectangle box_a = box_of(a);
+    const Rectangle box_b = box_of(b);
+    return {a,
+            b,
+            {{0.5 * (box_b.min.x + box_b.max.x - box_a.min.x - box_a.max.x),
+              0.5 * (box_b.min.y + box_b.max.y - box_a.min.y - box_a.max.y)},
+             0.0},
+            {},
+            1e-3 * (box_a.max.x - box_a.min.x)};
+}
+
+const bool are_added = [] {
+    struct PaperScene {
+        const char* name;
+        tools::Scene (*make)(std::size_t scale);
+    };
+    for (const PaperScene& scene :
+         {PaperScene{"map", benchmark::map_scene}, PaperScene{"gears", benchmark::gears_scene},
+          PaperScene{"links", benchmark::links_scene}, PaperScene{"cars", benchmark::cars_scene},
+          PaperScene{"wavy bars", benchmark::wavy_scene}}) {
+        const std::string name = scene.name;
+        add_pairs(name + " of the paper", [=] { return pairs_in_place(scene.make(1)); });
+        add_pairs(name + ", moved into each other", [=] { return pairs_anywhere(scene.make(1)); });
+    }
+    for (const Family& family : families()) {
+        add_pairs(family.name, [=] { return pairs_of(family); });
+    }
+    const std::vector<test::NamedRings> outlines = test::read_outlines(NEARFIELD_TEST_DATA);
     for (std::size_t i = 0; i < outlines.size(); ++i) {
         const test::NamedRings& a = outlines[i];
         const test::NamedRings& b = outlines[(i + 1) % outlines.size()];
-        const Rectangle box_a = box_of(a.rings);
-        const Rectangle box_b = box_of(b.rings);
-        const Pose pose{{0.5 * (box_b.min.x + box_b.max.x - box_a.min.x - box_a.max.x),
-                         0.5 * (box_b.min.y + box_b.max.y - box_a.min.y - box_a.max.y)},
-                        0.0};
-        std::vector<Measured> all;
-        measure(context, a.rings, b.rings, pose, {}, 1e-3 * (box_a.max.x - box_a.min.x), all);
-        const auto edges = [](const Rings& rings) {
-            std::size_t count = 0;
-            for (const Ring& ring : rings) {
-                count += ring.size();
-            }
-            return std::to_string(count);
-        };
-        print(a.name + " (" + edges(a.rings) + ") out of " + b.name + " (" + edges(b.rings) + ")",
-              all);
+        add_pairs(a.name + " out of " + b.name,
+                  [=] { return std::vector<Pair>{pair_of(a.rings, b.rings)}; });
     }
-}
+    return true;
+}();
 
 }  // namespace
-
-int main(int count, char** words) {
-    try {
-        Context context = take(Context::create_headless());
-        std::puts("| | ms, median | ms, most | bound to length, median | worst tenth | worst |");
-        std::puts("|---|---|---|---|---|---|");
-        measure_paper_scenes(context);
-        measure_families(context);
-        measure_outlines(context, count > 1 ? words[1] : NEARFIELD_TEST_DATA);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "bench_separation_vectors: %s\n", error.what());
-        return 1;
-    }
-}
+}  // namespace nearfield::bench

@@ -16,7 +16,7 @@ run_packages=(
 viewer_packages=(libsdl2-dev libimgui-dev ffmpeg)
 test_packages=(
     "${viewer_packages[@]}"
-    libgtest-dev libgeos-dev vulkan-validationlayers chromium-common clang clang-format clang-tidy
+    libgtest-dev libbenchmark-dev libgeos-dev vulkan-validationlayers chromium-common clang clang-format clang-tidy
     libfreetype-dev fonts-inter-variable fonts-ebgaramond
     doxygen dpkg-dev file gdb python3
 )
