@@ -1,7 +1,7 @@
 # The Vulkan drivers that tests request by name, so that none runs on an arbitrary driver: a list of
 # NAME=MANIFEST, where the manifest is the JSON file through which the loader finds a driver. All
-# tests that need a device run on the first; those of queries, the device, the graph and scenes run on
-# the others too.
+# tests that need a device run on the first; those whose answers depend on the driver run on the
+# others too.
 set(NEARFIELD_TEST_DRIVERS "" CACHE STRING
     "Vulkan drivers to test on, NAME=MANIFEST each; empty: lavapipe and SwiftShader, as Debian has them")
 
@@ -56,16 +56,14 @@ function(nearfield_test name)
         TIMEOUT 300 ENVIRONMENT_MODIFICATION ${nearfield_on_first_driver})
 endfunction()
 
-# nearfield_test_on_others(PREFIX NAME COMMAND...) adds the same test for each other driver, as
-# PREFIX.DRIVER.NAME, or PREFIX.DRIVER if the name is empty.
-function(nearfield_test_on_others prefix name)
+# The COST of tests that take longest: ctest starts them first, so that none runs alone at the end.
+set(nearfield_long 100)
+
+# nearfield_test_on_others(NAME COMMAND...) adds the same test for each other driver, as NAME.DRIVER.
+function(nearfield_test_on_others name)
     foreach(driver IN LISTS nearfield_other_drivers)
-        set(full ${prefix}.${driver})
-        if(name)
-            string(APPEND full .${name})
-        endif()
-        add_test(NAME ${full} COMMAND ${ARGN})
-        set_tests_properties(${full} PROPERTIES
-            TIMEOUT 300 ENVIRONMENT_MODIFICATION VK_DRIVER_FILES=set:${nearfield_manifest_of_${driver}})
+        add_test(NAME ${name}.${driver} COMMAND ${ARGN})
+        set_tests_properties(${name}.${driver} PROPERTIES TIMEOUT 1200 COST ${nearfield_long}
+            ENVIRONMENT_MODIFICATION VK_DRIVER_FILES=set:${nearfield_manifest_of_${driver}})
     endforeach()
 endfunction()

@@ -141,19 +141,6 @@ TEST_F(DevicePairContacts, StateTheErrorsOfTheirPairs) {
     EXPECT_NE(row->status, StatusCode::ok);
 }
 
-/// More points of one instance than buffers can hold, or of all than they may.
-TEST_F(DevicePairContacts, BeyondTheDeviceAreRefused) {
-    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
-    for (int i = 0; i < 8; ++i) {
-        add(square, {.translation = {0.1 * i, 0.05 * i}});
-    }
-    PairTable table(ContactQuery{.tolerance = 2e-6, .contact_distance = 1.0}, on_device);
-    const Status status = world().update(table);
-    EXPECT_EQ(status.code(), StatusCode::too_large) << status.message();
-    EXPECT_NE(status.message().find("the pairs of "), std::string::npos) << status.message();
-    EXPECT_EQ(table.size(), 0U);
-}
-
 TEST_F(DevicePairContacts, HaveAnalyticNormalsAlone) {
     const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
     add(square, {});

@@ -217,51 +217,5 @@ TEST_F(DevicePairs, OfAListAreReadByTheHost) {
     EXPECT_EQ(refused(IntersectionTestQuery{}).code(), StatusCode::invalid_query);
 }
 
-TEST_F(DevicePairs, BeyondTheMemoryLimitAreRefused) {
-    Settings settings;
-    settings.memory_limit = 1U << 21U;
-    Expected<Context> limited = Context::create(host_device(), settings);
-    ASSERT_TRUE(limited.has_value());
-    Random random(seed + 5000);
-    const auto shape = limited->add_shape(star(random, 50, 0.5));
-    ASSERT_TRUE(shape.has_value());
-    Expected<World> world = World::create(*limited);
-    ASSERT_TRUE(world.has_value());
-    std::vector<InstanceHandle> handles;
-    for (int i = 0; i < 300; ++i) {
-        const auto handle = world->add({.shape = *shape, .pose = any_pose(random, 1.0)});
-        ASSERT_TRUE(handle.has_value());
-        handles.push_back(*handle);
-    }
-    PairTable table(PenetrationQuery{.tolerance = 0.01}, on_device);
-    const Status status = world->update(table);
-    EXPECT_EQ(status.code(), StatusCode::too_large) << status.message();
-    EXPECT_NE(status.message().find("memory_limit"), std::string::npos) << status.message();
-    EXPECT_EQ(table.size(), 0U);
-    for (std::size_t i = 2; i < handles.size(); ++i) {
-        ASSERT_TRUE(world->remove(handles[i]).ok());
-    }
-    EXPECT_TRUE(world->update(table).ok());
-}
-
-/// Buffers start small where the usual ones do not fit.
-TEST_F(DevicePairs, WithinALimitBelowTheUsualRoom) {
-    Settings settings;
-    settings.memory_limit = 1U << 17U;
-    Expected<Context> limited = Context::create(host_device(), settings);
-    ASSERT_TRUE(limited.has_value()) << limited.error().text();
-    const auto shape = limited->add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
-    ASSERT_TRUE(shape.has_value());
-    Expected<World> world = World::create(*limited);
-    ASSERT_TRUE(world.has_value());
-    for (const double x : {0.0, 0.5}) {
-        ASSERT_TRUE(world->add({.shape = *shape, .pose = {{x, x}, 0.0}}).has_value());
-    }
-    PairTable table(PenetrationQuery{.tolerance = 0.01}, on_device);
-    const Status status = world->update(table);
-    EXPECT_TRUE(status.ok()) << status.text();
-    EXPECT_EQ(table.size(), 2U);
-}
-
 }  // namespace
 }  // namespace nearfield::test

@@ -279,7 +279,7 @@ TEST_F(PointSearch, HoldsForShapesOfAnySize) {
 
 // More points than a new context makes room for: the search is repeated, and nothing is cut.
 TEST_F(PointSearch, RepeatsWithMoreRoom) {
-    Expected<Context> fresh = Context::create(host_device());
+    Expected<Context> fresh = Context::create(host_device(), on_demand());
     ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
     Random random(seed);
     const Pair pair{

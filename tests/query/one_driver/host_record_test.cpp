@@ -25,7 +25,7 @@ protected:
 };
 
 TEST_F(Recorded, AnswersAreThoseOfRunForEveryNumberOfFramesInFlight) {
-    for (std::uint32_t frames = 1; frames <= max_batches_in_flight; ++frames) {
+    for (const std::uint32_t frames : {1U, 2U, 3U, max_batches_in_flight}) {
         SCOPED_TRACE(frames);
         make(frames);
         HostFrames host(host_device(), frames);

@@ -122,7 +122,7 @@ TEST_F(DevicePairRecordingErrors, SayThatThereWasNoRoomAndMakeIt) {
 TEST_F(DevicePairRecordingErrors, OfMemoryThatIsNeverEnough) {
     Settings settings;
     settings.memory_limit = 1U << 20U;
-    Expected<Context> small = Context::create(host_device(), settings);
+    Expected<Context> small = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     const ShapeHandle square = *small->add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
     World world = std::move(*World::create(*small));
