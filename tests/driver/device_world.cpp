@@ -49,6 +49,14 @@ std::vector<std::string_view> calls_of(const MakeDeviceWorld& make, Step step) {
     return asked->driver().calls();
 }
 
+std::uint64_t allocations_of(const MakeDeviceWorld& make, Step step) {
+    const auto asked = make();
+    asked->ask_all_before(step);
+    const std::uint64_t before = test_support::allocation_count_of_this_thread();
+    asked->expect_to_work();
+    return test_support::allocation_count_of_this_thread() - before;
+}
+
 }  // namespace
 
 DeviceWorld::DeviceWorld(std::uint32_t storage_range) {
@@ -145,9 +153,11 @@ void expect_to_survive_failing_calls(
 }
 
 void expect_to_survive_scarce_memory(const MakeDeviceWorld& make) {
+    constexpr std::uint64_t max_tries = 50;  // of a step, spread over all of its allocations
     for (const Step step : DeviceWorld::steps) {
+        const std::uint64_t stride = allocations_of(make, step) / max_tries + 1;
         bool has_failed = true;
-        for (std::uint64_t successes = 0; has_failed; ++successes) {
+        for (std::uint64_t successes = 0; has_failed; successes += stride) {
             SCOPED_TRACE(::testing::Message() << "step " << static_cast<int>(step)
                                               << ": memory for " << successes << " allocations");
             const auto asked = make();

@@ -13,7 +13,7 @@ using test_support::FailingAllocations;
 
 /// How many of a step's allocations are made to fail: all if there are few, otherwise this many,
 /// spread over all.
-constexpr std::uint64_t max_tries = 120;
+constexpr std::uint64_t max_tries = 50;
 
 bool is_submission(World::Step step) {
     return step == World::Step::submit_first || step == World::Step::submit_larger ||

@@ -15,9 +15,10 @@ struct Example {
     std::string name;
     std::string program;
     std::vector<std::string> arguments;
+    Vector2 by;  ///< how far the mouse drags the star
     int width = 640;
     int height = 480;
-    Vector2 label;  ///< as compare() expects it
+    Vector2 label = {};  ///< as compare() expects it
 
     /// Prints an example in failure messages.
     friend std::ostream& operator<<(std::ostream& out, const Example& example) {
@@ -26,25 +27,34 @@ struct Example {
 };
 
 const Vector2 label_of_qt{140.0, 420.0};
+/// Where the star comes to rest, and where it reaches into the hook.
+const Vector2 to_rest{-2.2, -0.7};
+const Vector2 into_the_hook{-1.7, 0.4};
 
 std::vector<Example> every_example() {
     return {
-        {"device_of_qt", NEARFIELD_QT_QUICK, {"--way=qt"}, 640, 480, label_of_qt},
-        {"own_device", NEARFIELD_QT_QUICK, {"--way=ours"}, 640, 480, label_of_qt},
-        {"own_image", NEARFIELD_QT_QUICK, {"--way=image"}, 640, 480, label_of_qt},
-        {"sdl", NEARFIELD_SDL_WINDOW, {"--frames=40"}, 640, 480, {}},
-        {"sdl_resized", NEARFIELD_SDL_WINDOW, {"--frames=40", "--resize=800,600"}, 800, 600, {}},
+        {"device_of_qt", NEARFIELD_QT_QUICK, {"--way=qt"}, into_the_hook, 640, 480, label_of_qt},
+        {"own_device", NEARFIELD_QT_QUICK, {"--way=ours"}, to_rest, 640, 480, label_of_qt},
+        {"own_image", NEARFIELD_QT_QUICK, {"--way=image"}, into_the_hook, 640, 480, label_of_qt},
+        {"sdl", NEARFIELD_SDL_WINDOW, {"--frames=40"}, into_the_hook},
+        {"sdl_resized",
+         NEARFIELD_SDL_WINDOW,
+         {"--frames=40", "--resize=800,600"},
+         to_rest,
+         800,
+         600},
     };
 }
 
 class Examples : public testing::TestWithParam<Example> {
 protected:
     /// Takes the picture after the star was dragged; expects no messages.
-    [[nodiscard]] Pixels take_picture(const std::string& drag) const {
+    [[nodiscard]] Pixels take_picture() const {
         const Example& example = GetParam();
         std::vector<std::string> arguments = example.arguments;
         const std::filesystem::path file = folder_.path() / "picture.png";
-        arguments.push_back("--drag=" + drag);
+        arguments.push_back("--drag=" + std::to_string(example.by.x) + "," +
+                            std::to_string(example.by.y));
         arguments.push_back("--screenshot=" + file.string());
         const ExampleOutcome outcome = run_example(example.program, arguments, folder_);
         EXPECT_EQ(outcome.status, 0);
@@ -54,38 +64,29 @@ protected:
         return read_picture(file);
     }
 
-    void check(const std::string& drag, const Vector2& by) const {
-        const Example& example = GetParam();
-        const Pixels picture = take_picture(drag);
-        ASSERT_EQ(picture.width, example.width);
-        ASSERT_EQ(picture.height, example.height);
-        const examples::Scene scene = dragged_scene(by);
-        const Comparison comparison =
-            compare(picture, scene, contacts_by_cpu(scene), example.label);
-        EXPECT_EQ(comparison.difference, "");
-        EXPECT_GT(comparison.inside_markers, 100);
-        EXPECT_GT(comparison.outside_markers, 100);
-        EXPECT_GT(comparison.normals, 10);
-        EXPECT_GT(comparison.filled[0], 10'000);
-        EXPECT_GT(comparison.filled[1], 10'000);
-        EXPECT_GT(comparison.background, 100'000);
-        EXPECT_LT(comparison.lines, 10'000);
-        if (example.label.x > 0.0) {
-            EXPECT_NE(picture.at(20, example.height - 30), examples::background_color)
-                << "no item of Qt Quick";
-        }
-    }
-
 private:
     test_support::Folder folder_;
 };
 
-TEST_P(Examples, ShowTheContactsOfTheCpuWhereTheStarCameToRest) {
-    check("-2.2,-0.7", {-2.2, -0.7});
-}
-
-TEST_P(Examples, ShowTheContactsOfTheCpuWhereItReachesIntoTheHook) {
-    check("-1.7,0.4", {-1.7, 0.4});
+TEST_P(Examples, ShowTheContactsOfTheCpu) {
+    const Example& example = GetParam();
+    const Pixels picture = take_picture();
+    ASSERT_EQ(picture.width, example.width);
+    ASSERT_EQ(picture.height, example.height);
+    const examples::Scene scene = dragged_scene(example.by);
+    const Comparison comparison = compare(picture, scene, contacts_by_cpu(scene), example.label);
+    EXPECT_EQ(comparison.difference, "");
+    EXPECT_GT(comparison.inside_markers, 100);
+    EXPECT_GT(comparison.outside_markers, 100);
+    EXPECT_GT(comparison.normals, 10);
+    EXPECT_GT(comparison.filled[0], 10'000);
+    EXPECT_GT(comparison.filled[1], 10'000);
+    EXPECT_GT(comparison.background, 100'000);
+    EXPECT_LT(comparison.lines, 10'000);
+    if (example.label.x > 0.0) {
+        EXPECT_NE(picture.at(20, example.height - 30), examples::background_color)
+            << "no item of Qt Quick";
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Hosts, Examples, testing::ValuesIn(every_example()),

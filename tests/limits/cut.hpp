@@ -45,11 +45,7 @@ private:
 };
 
 /// Up to this checkpoint, most tests cut at every one.
-#ifdef __SANITIZE_ADDRESS__
 inline constexpr std::uint64_t dense = 8;
-#else
-inline constexpr std::uint64_t dense = 24;
-#endif
 
 /// Calls `cut_at(n)` for n = 1, 2, 3, ..., from `up_to` on in growing steps, until it returns
 /// false: the call was over before its checkpoint n. Returns how often it was cut.

@@ -17,7 +17,9 @@ Context& simulation_context() {
     };
     static Shared* const shared = [] {
         auto* made = new Shared;
-        Expected<Context> context = Context::create_headless();
+        Settings settings;
+        settings.pipelines_on_demand = true;
+        Expected<Context> context = Context::create_headless({}, settings);
         if (!context) {
             throw std::runtime_error(context.error().text());
         }

@@ -58,7 +58,7 @@ public:
     explicit Crowd(const JobSystem& jobs) {
         Settings settings;
         settings.jobs = jobs;
-        Expected<Context> made = Context::create_headless({}, settings);
+        Expected<Context> made = Context::create_cpu(settings);
         EXPECT_TRUE(made.has_value()) << made.error().text();
         if (!made) {
             return;
@@ -165,7 +165,7 @@ std::uint32_t jobs_for(double samples) {
     std::uint32_t jobs = 0;
     Settings settings;
     settings.jobs = {&jobs, 8, count_jobs};
-    Expected<Context> context = Context::create_headless({}, settings);
+    Expected<Context> context = Context::create_cpu(settings);
     EXPECT_TRUE(context.has_value()) << context.error().text();
     const std::vector<Ring> square{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}};
     const Expected<ShapeHandle> shape = context->add_shape(square);
@@ -208,7 +208,7 @@ TEST(Jobs, ThatCannotBeUsedAreRefused) {
     const auto code = [](const JobSystem& jobs) {
         Settings settings;
         settings.jobs = jobs;
-        const Status status = Context::create_headless({}, settings).error();
+        const Status status = Context::create_cpu(settings).error();
         EXPECT_NE(status.message().find("Settings::jobs"), std::string::npos) << status.text();
         return status.code();
     };

@@ -151,7 +151,9 @@ TEST(Threads, HaveContextsOnOneDeviceAndOneQueue) {
 }
 
 TEST(Threads, HaveContextsOnDevicesOfTheirOwn) {
-    expect_same_on_threads([] { return Context::create_headless(); });
+    Settings settings;
+    settings.pipelines_on_demand = true;
+    expect_same_on_threads([&] { return Context::create_headless({}, settings); });
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ void run_on_threads(void* /*user*/, std::uint32_t jobs, void (*job)(void* data, 
 
 TEST(WorldHistory, DoesNotShow) {
     const int first = first_world_case();
-    for (int number = first; number < first + world_cases(200); ++number) {
+    for (int number = first; number < first + world_cases(80); ++number) {
         const auto seed = static_cast<std::uint64_t>(number);
         Settings settings;
         if (number % 4 == 0) {

@@ -30,7 +30,7 @@ TEST_P(WorldListedPairs, AreThoseOfABatch) {
         std::vector<InstanceHandle> a;
         std::vector<InstanceHandle> b;
         Batch batch;
-        for (int pair = 0; pair < 300; ++pair) {
+        for (int pair = 0; pair < 150; ++pair) {
             const std::size_t i = any();
             const std::size_t j = any();
             a.push_back(scene.handle(i));
@@ -147,7 +147,7 @@ void expect_rows_of_batch(Scene& scene, const Listed& listed, const PenetrationQ
 TEST_P(WorldListedPairs, PenetrateAsInABatch) {
     const auto kind = static_cast<SceneKind>(GetParam());
     const int begin = first_world_case();
-    for (int number = begin; number < begin + world_cases(6); ++number) {
+    for (int number = begin; number < begin + world_cases(3); ++number) {
         const std::uint64_t seed = 1000U * static_cast<std::uint64_t>(number) + 89U;
         SCOPED_TRACE(std::string(to_string(kind)) + ", seed " + std::to_string(seed));
         Scene scene(make_scene(kind, seed));
@@ -158,7 +158,7 @@ TEST_P(WorldListedPairs, PenetrateAsInABatch) {
         std::vector<std::size_t> a;
         std::vector<std::size_t> b;
         // In any order; some with itself, and some in both directions, one after the other.
-        for (int pair = 0; pair < 300; ++pair) {
+        for (int pair = 0; pair < 150; ++pair) {
             a.push_back(any());
             b.push_back(any());
             if (random.whole(0, 2) == 0) {

@@ -373,7 +373,7 @@ TEST(WorldMemory, OfAFrameLikeTheOneBeforeIsNone) {
             frames.run(frame % 2 == 0);
         }
         const std::uint64_t before = test_support::allocation_count();
-        for (int frame = 0; frame < 10; ++frame) {
+        for (int frame = 0; frame < 4; ++frame) {
             frames.run(frame % 2 == 0);
         }
         EXPECT_EQ(test_support::allocation_count() - before, 0U);

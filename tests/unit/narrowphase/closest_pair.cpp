@@ -181,7 +181,7 @@ Ring cut_rectangle(double low_x, double low_y, double high_x, double high_y, int
 
 /// Tens of thousands of pairs as close as the closest, up to the margin: more than are stored.
 TEST(ClosestPair, UniqueUnlessAnotherIsAsCloseAmongVeryMany) {
-    const Polygon wall = samples::polygon({cut_rectangle(0.0, 0.0, 10.0, 1.0, 5000)});
+    const Polygon wall = samples::polygon({cut_rectangle(0.0, 0.0, 10.0, 1.0, 1500)});
     ClosestPairFinder finder;
     const auto unique = [&](const Ring& ring, double margin) {
         const Polygon polygon = samples::polygon({ring});

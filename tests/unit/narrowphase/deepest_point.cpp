@@ -73,7 +73,7 @@ TEST(DeepestPoint, IsThatOfBruteForce) {
             instances.complete(index);
             const simd::TransformedEdges& edges = instances[index];
             const double rounding = 1e-11 + edges.rounding;
-            const int lists = edges.count > 1000 ? 4 : 60;
+            const int lists = edges.count > 1000 ? 2 : 20;
             for (int i = 0; i < lists; ++i) {
                 const Points points = walk(edges, random);
                 many += points.count >= 128 ? 1U : 0U;

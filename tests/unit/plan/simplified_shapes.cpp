@@ -63,7 +63,7 @@ TEST(SimplifiedShapes, StayRightWhereThereAreTooManyToKeep) {
     Polygon polygon;
     ASSERT_TRUE(polygon.assign(test::tangle(random, 20000)).ok());
     SimplifiedShapes shapes;
-    for (int i = 1; i <= 120; ++i) {
+    for (int i = 1; i <= 60; ++i) {
         const SimplifiedBoundary found = shapes.get(polygon, 1e-9 * i, 10.0);
         ASSERT_EQ(found.size(), 20000U) << i;
         ASSERT_EQ(found.edges.front().first, 0U) << i;
