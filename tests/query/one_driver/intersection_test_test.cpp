@@ -4,6 +4,7 @@
 #include <tests/support/outlines.hpp>
 
 #include <cmath>
+#include <numbers>
 
 namespace nearfield::test {
 namespace {
@@ -75,6 +76,31 @@ TEST_F(IntersectionTest, TouchingAndContainmentCount) {
     EXPECT_TRUE(check(rectangle({0, 1}, {4, 2}), rectangle({1, 0}, {2, 4})));
     // One of several parts.
     EXPECT_TRUE(check(Rings{rectangle({9, 9}, {10, 10})[0], rectangle({1, 1}, {2, 2})[0]}, square));
+}
+
+/// The teeth of one comb in the gaps of the other: boxes of long chains overlap everywhere.
+TEST_F(IntersectionTest, InterlockedCombsMeetOnlyIfTheyTouch) {
+    constexpr int teeth = 200;
+    constexpr double pitch = 2.0 / teeth;
+    Ring narrow{{1.0, -1.0}, {-1.0, -1.0}};  // teeth narrower than the gaps
+    for (int i = 0; i < teeth; ++i) {
+        const double left = -1.0 + pitch * i;
+        const double right = left + 0.4 * pitch;
+        narrow.insert(narrow.end(),
+                      {{left, 1.0}, {right, 1.0}, {right, -0.9}, {left + 0.99 * pitch, -0.9}});
+    }
+    for (const double turn : {0.0, 0.7}) {
+        for (const bool touching : {false, true}) {
+            const double x = (touching ? 0.7 : 0.89) * pitch;
+            const double y = 0.5;
+            // Rotated by 180 degrees about the origin, then moved along the row of teeth.
+            const Pose turned{
+                {std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y},
+                turn + std::numbers::pi};
+            EXPECT_EQ(check({{"A", {narrow}}, {"B", {narrow}}, {{}, turn}, turned, 0.1}), touching)
+                << turn;
+        }
+    }
 }
 
 TEST_F(IntersectionTest, OutlinesTouchWhereTheyAreMovedToTheirSeparation) {

@@ -71,6 +71,7 @@ TEST(StatedBounds, FieldsByTheDeviceAddSimplificationMeshSnappingAndTheDeviation
             const double cell = root * d;
             const double rest = cell * (1.0 / 8.0 + 2.0 * snapping(256.0) + 1.0 / 1024.0);
             EXPECT_NEAR(budget.bound, d / 4.0 + rest + deviations.b, precise * d);
+            EXPECT_LE(budget.bound, d);
             EXPECT_NEAR(budget.simplification, d / 4.0, precise * d);
             EXPECT_NEAR(budget.mesh, cell / 8.0, precise * d);
         }
@@ -132,13 +133,19 @@ TEST(StatedBounds, IntersectionsGiveTheLargerDeviationRoomInTheCell) {
     });
 }
 
-TEST(StatedBounds, DeviationsOfOneShapeCountAsThoseOfTheOther) {
+TEST(StatedBounds, LeaveAQuarterOfTheToleranceToBothDeviations) {
     EXPECT_TRUE(check_deviations(1.0, {max_deviation, 0.0}, 1.0).ok());
     EXPECT_TRUE(check_deviations(1.0, {0.0, max_deviation}, 1.0).ok());
     const double more = std::nextafter(max_deviation, 1.0);
     EXPECT_FALSE(check_deviations(1.0, {more, 0.0}, 1.0).ok());
     EXPECT_FALSE(check_deviations(1.0, {0.0, more}, 1.0).ok());
     EXPECT_FALSE(check_deviations(1.0, {max_deviation / 2.0, more / 2.0 + 1e-9}, 1.0).ok());
+    EXPECT_EQ(check_deviations(2.0, {0.2, 0.4}, 2.0).message(),
+              "the shapes' rings may be off by 0.2 (A) and 0.4 (B), together more than 0.25 of the "
+              "tolerance 2; tessellate finer, or ask for at least 2.4000000000000004");
+    EXPECT_EQ(check_deviations(2.0, {0.0, 0.5}, 2.5).message(),
+              "the shapes' rings may be off by 0 (A) and 0.5 (B), which with what this device's "
+              "raster needs is 2.5, more than the tolerance 2; tessellate finer");
 }
 
 }  // namespace
