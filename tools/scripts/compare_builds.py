@@ -16,6 +16,7 @@ import json
 import math
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -117,7 +118,7 @@ def answer(program, arguments, field):
     field.unlink(missing_ok=True)
     done = subprocess.run([program, *arguments, "--json", "-"], capture_output=True, text=True)
     if done.returncode != 0:
-        return done.returncode, done.stderr
+        return done.returncode, re.sub(r".* ms\n", "", done.stderr)
     parsed, _ = json.JSONDecoder().raw_decode(done.stdout)
     return 0, without_statistics(parsed), field.read_bytes() if field.exists() else b""
 
