@@ -1,10 +1,9 @@
 #include "contract.hpp"
 
-#include "rectangle_truth.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace nearfield::test {
@@ -32,12 +31,13 @@ void expect_times(const Json& times) {
 
 /// The side of a region's cells, which must be equal in x and y.
 double side_of_cells(const Json& region) {
-    const Point min = to_point(region.at("min"));
-    const Point max = to_point(region.at("max"));
+    const auto extent = [&](std::size_t axis) {
+        return region.at("max").at(axis).get<double>() - region.at("min").at(axis).get<double>();
+    };
     EXPECT_TRUE(region.at("width").is_number_unsigned()) << region;
     EXPECT_TRUE(region.at("height").is_number_unsigned()) << region;
-    const double side = (max.x - min.x) / region.at("width").get<double>();
-    EXPECT_NEAR((max.y - min.y) / region.at("height").get<double>(), side, 1e-9 * side) << region;
+    const double side = extent(0) / region.at("width").get<double>();
+    EXPECT_NEAR(extent(1) / region.at("height").get<double>(), side, 1e-9 * side) << region;
     return side;
 }
 
