@@ -7,10 +7,10 @@
 
 namespace nearfield {
 
-void Jobs::run_all(std::uint32_t jobs, const AnyWork& work) {
+void Jobs::run_all(std::uint32_t jobs, FunctionRef<void(std::uint32_t)> work) {
     struct Call {
         Jobs& all;
-        const AnyWork& work;
+        FunctionRef<void(std::uint32_t)> work;
         Interruption* interruption;
     } call{*this, work, current_interruption};
     for (std::uint32_t i = 0; i < jobs; ++i) {
@@ -21,7 +21,7 @@ void Jobs::run_all(std::uint32_t jobs, const AnyWork& work) {
         Outcome& outcome = of.all.outcomes_[job];
         const InterruptionScope scope(of.interruption);
         try {
-            of.work.run(of.work.data, job);
+            of.work(job);
         } catch (...) {
             outcome.failure = std::current_exception();
         }

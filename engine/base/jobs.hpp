@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/function_ref.hpp>
 #include <nearfield/jobs.hpp>
 
 #include <cstddef>
@@ -30,10 +31,7 @@ public:
             work(0U);
             return;
         }
-        run_all(jobs, {[](const void* data, std::uint32_t job) {
-                           (*static_cast<const Work*>(data))(job);
-                       },
-                       &work});
+        run_all(jobs, work);
     }
 
     /// Divides `count` things into parts of `part` and calls `work(job, first, end)` for each of
@@ -57,16 +55,12 @@ public:
     }
 
 private:
-    struct AnyWork {
-        void (*run)(const void* data, std::uint32_t job) = nullptr;
-        const void* data = nullptr;
-    };
     struct Outcome {
         std::exception_ptr failure;
         bool done = false;
     };
 
-    void run_all(std::uint32_t jobs, const AnyWork& work);
+    void run_all(std::uint32_t jobs, FunctionRef<void(std::uint32_t)> work);
 
     JobSystem system_;
     std::vector<Outcome> outcomes_;  // one per job

@@ -11,20 +11,19 @@ constexpr std::uint32_t few_edges = 4;
 bool CandidateEdgePairs::find_all(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                   std::vector<simd::EdgePair>& pairs) {
     pairs.clear();
-    const auto add = [](void* user, const simd::EdgePair& pair) -> bool {
-        static_cast<std::vector<simd::EdgePair>*>(user)->push_back(pair);
+    const auto add = [&](const simd::EdgePair& pair) {
+        pairs.push_back(pair);
         return true;
     };
     if (is_small(a) && is_small(b)) {
-        for_each(a, b, [&](const simd::EdgePair& pair) { return add(&pairs, pair); });
+        for_each(a, b, add);
         return true;
     }
     constexpr std::uint32_t many_visits = 16;
     const simd::AabbTree tree_a = a.tree();
     const simd::AabbTree tree_b = b.tree();
     simd::VisitsLeft left{1024 + many_visits * (tree_a.level(0).count + tree_b.level(0).count)};
-    simd::kernels::for_candidate_pairs(tree_a, tree_b, a.rounding + b.rounding, {add, &pairs},
-                                       left);
+    simd::kernels::for_candidate_pairs(tree_a, tree_b, a.rounding + b.rounding, add, left);
     return left.count > 0;
 }
 

@@ -51,11 +51,9 @@ private:
     template <class Use>
     static bool for_each_by_boxes(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                   Use& use) {
-        const auto pass_on = [](void* user, const simd::EdgePair& pair) -> bool {
-            return (*static_cast<Use*>(user))(pair);
-        };
-        return simd::kernels::for_candidate_pairs(a.tree(), b.tree(), a.rounding + b.rounding,
-                                                  {pass_on, &use});
+        simd::VisitsLeft unlimited;
+        return simd::kernels::for_candidate_pairs(a.tree(), b.tree(), a.rounding + b.rounding, use,
+                                                  unlimited);
     }
 
     /// Selects the edges of A, and if they are several those of B, that lie in both boxes, grown by

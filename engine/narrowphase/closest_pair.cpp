@@ -90,13 +90,11 @@ ClosestPair ClosestPairFinder::find_of_few(const simd::TransformedEdges& a,
                                            const Vector& direction) {
     a_ = &a;
     b_ = &b;
-    const auto keep = [](void* user, const simd::NearPair& found) {
-        static_cast<std::vector<simd::NearPair>*>(user)->push_back(found);
-    };
     near_few_.clear();
     const simd::FewEdges few{a, geometry::extent_of(a.box), {direction.x(), direction.y()}};
     const double least = simd::kernels::for_closest_to_few(
-        few, tree_b, at_most * at_most, 2.0 * (a.rounding + b.rounding), {keep, &near_few_});
+        few, tree_b, at_most * at_most, 2.0 * (a.rounding + b.rounding),
+        [this](const simd::NearPair& found) { near_few_.push_back(found); });
     // As pick().
     const double close = square_longer(least, a.rounding + b.rounding);
     const simd::NearPair* best = nullptr;
@@ -133,17 +131,12 @@ ClosestPair ClosestPairFinder::pick(double least) const {
 }
 
 double ClosestPairFinder::keep_near(double most, double margin, std::size_t max_pairs) {
-    struct Kept {
-        std::vector<simd::VertexAndEdge>& near;
-        std::size_t most;
-    } kept{near_, max_pairs};
-    const auto keep = [](void* user, const simd::VertexAndEdge& found) {
-        Kept& to = *static_cast<Kept*>(user);
-        to.near.push_back(found);
-        return to.near.size() <= to.most;
+    const auto keep = [&](const simd::VertexAndEdge& found) {
+        near_.push_back(found);
+        return near_.size() <= max_pairs;
     };
     near_.clear();
-    return simd::kernels::for_closest(*tree_a_, *tree_b_, most, margin, {keep, &kept});
+    return simd::kernels::for_closest(*tree_a_, *tree_b_, most, margin, keep);
 }
 
 NearestOnSegment ClosestPairFinder::nearest_of(const simd::VertexAndEdge& found) const {
@@ -175,7 +168,7 @@ bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double 
     const double squared_apart = apart * apart;
     // If more than one pair is closest, another one contains a vertex: the distance of two straight
     // edges is least at an end of one of them, and if not only there, they are parallel.
-    auto is_rival = [&](const simd::VertexAndEdge& found) {
+    const auto is_rival = [&](const simd::VertexAndEdge& found) {
         const ClosestPair other = pair_of(found, nearest_of(found));
         const bool elsewhere = (other.point_a - closest.point_a).squaredNorm() > squared_apart ||
                                (side == Side::either &&
@@ -185,12 +178,9 @@ bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double 
     if (keeps_all_) {
         return std::none_of(near_.begin(), near_.end(), is_rival);
     }
-    const auto go_on = [](void* user, const simd::VertexAndEdge& found) {
-        return !(*static_cast<decltype(is_rival)*>(user))(found);
-    };
-    return !simd::kernels::for_within(*tree_a_, *tree_b_,
-                                      square_longer(limit, 2.0 * (a_->rounding + b_->rounding)),
-                                      {go_on, &is_rival});
+    return !simd::kernels::for_within(
+        *tree_a_, *tree_b_, square_longer(limit, 2.0 * (a_->rounding + b_->rounding)),
+        [&](const simd::VertexAndEdge& found) { return !is_rival(found); });
 }
 
 }  // namespace nearfield::narrowphase

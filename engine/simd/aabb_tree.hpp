@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/function_ref.hpp>
 #include <engine/simd/edge_kernels.hpp>
 
 #include <algorithm>
@@ -115,15 +116,9 @@ struct VertexAndEdge {
     double squared = 0.0;  ///< their squared distance, up to rounding
 };
 
-/// Receives the results of a pair search. `use` returns whether to go on.
-struct EdgePairSink {
-    bool (*use)(void* user, const EdgePair& pair) = nullptr;
-    void* user = nullptr;
-};
-struct VertexAndEdgeSink {
-    bool (*use)(void* user, const VertexAndEdge& found) = nullptr;
-    void* user = nullptr;
-};
+/// Each receives the results of a pair search, and returns whether to go on.
+using EdgePairSink = FunctionRef<bool(const EdgePair&)>;
+using VertexAndEdgeSink = FunctionRef<bool(const VertexAndEdge&)>;
 
 namespace kernels {
 
@@ -156,8 +151,6 @@ void find_boxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, doub
 
 /// Calls `sink` for all pairs of edges that may be at most `margin` apart, until it returns false;
 /// returns whether it did.
-bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
-                         const EdgePairSink& sink);
 bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
                          const EdgePairSink& sink, VisitsLeft& left);
 

@@ -134,21 +134,12 @@ HWY_EXPORT(CrossingsAreOdd);
 HWY_EXPORT(CrossingsOfOthersAreOdd);
 
 bool contain(const AabbTree& tree, double x, double y) {
-    return crossings_are_odd(tree, {x, y});
-}
-
-bool crossings_are_odd(const AabbTree& tree, const Ray& ray) {
     VisitsLeft unlimited;
-    return crossings_are_odd(tree, ray, unlimited);
+    return crossings_are_odd(tree, {x, y}, unlimited);
 }
 
 bool crossings_are_odd(const AabbTree& tree, const Ray& ray, VisitsLeft& left) {
     return HWY_DYNAMIC_DISPATCH(CrossingsAreOdd)(tree, ray, left);
-}
-
-bool crossings_of_others_are_odd(const AabbTree& tree, const Ray& ray, const LineOfEdge& line) {
-    VisitsLeft unlimited;
-    return crossings_of_others_are_odd(tree, ray, line, unlimited);
 }
 
 bool crossings_of_others_are_odd(const AabbTree& tree, const Ray& ray, const LineOfEdge& line,

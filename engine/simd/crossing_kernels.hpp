@@ -33,14 +33,11 @@ struct Rays {
 };
 
 /// True if a ray crosses an odd number of edges.
-[[nodiscard]] bool crossings_are_odd(const AabbTree& tree, const Ray& ray);
 [[nodiscard]] bool crossings_are_odd(const AabbTree& tree, const Ray& ray, VisitsLeft& left);
 
 /// The same, without the edges that run along a line through the ray's start: the edge it starts
 /// on, and any others that contain the start. Precondition: the ray leaves the line at an angle of
 /// 45 degrees or more.
-[[nodiscard]] bool crossings_of_others_are_odd(const AabbTree& tree, const Ray& ray,
-                                               const LineOfEdge& line);
 [[nodiscard]] bool crossings_of_others_are_odd(const AabbTree& tree, const Ray& ray,
                                                const LineOfEdge& line, VisitsLeft& left);
 

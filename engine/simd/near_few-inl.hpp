@@ -172,8 +172,7 @@ private:
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(found));
             if (range.first + lane < range.end && distances[lane] <= bound()) {
                 bound_.Take(distances[lane]);
-                sink_.use(
-                    sink_.user,
+                sink_(
                     {{vertex, range.first + lane, vertex_of_first, distances[lane]}, exact[lane]});
             }
         }

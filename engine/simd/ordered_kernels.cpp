@@ -142,8 +142,7 @@ public:
             return may_meet(path_, 0, EdgeLanes(tree_.edges(), range.first + i), own_margin_);
         });
         for (found &= bits_of_range(range); found != 0; found &= found - 1) {
-            bound_ = sink_.use(sink_.user,
-                               range.first + static_cast<std::uint32_t>(std::countr_zero(found)));
+            bound_ = sink_(range.first + static_cast<std::uint32_t>(std::countr_zero(found)));
         }
     }
 
@@ -177,8 +176,7 @@ public:
                           hn::Set(tag, bound_));
         });
         for (found &= bits_of_range(range); found != 0; found &= found - 1) {
-            bound_ = sink_.use(sink_.user,
-                               range.first + static_cast<std::uint32_t>(std::countr_zero(found)));
+            bound_ = sink_(range.first + static_cast<std::uint32_t>(std::countr_zero(found)));
         }
     }
 

@@ -21,10 +21,7 @@ struct Path {
 };
 
 /// Receives edges, and returns the bound of the search from then on, which must not rise.
-struct BoundedEdgeSink {
-    double (*use)(void* user, std::uint32_t edge) = nullptr;
-    void* user = nullptr;
-};
+using BoundedEdgeSink = FunctionRef<double(std::uint32_t)>;
 
 /// Up to this many edges are tested together against each box of a tree.
 inline constexpr std::uint32_t max_few_edges = 32;
@@ -44,10 +41,7 @@ struct NearPair : VertexAndEdge {
 };
 
 /// Receives the results of a search.
-struct NearPairSink {
-    void (*use)(void* user, const NearPair& found) = nullptr;
-    void* user = nullptr;
-};
+using NearPairSink = FunctionRef<void(const NearPair&)>;
 
 /// One number for each of eight boxes.
 using BoxKeys = std::array<double, AabbTree::fan_out>;

@@ -121,7 +121,7 @@ public:
             for (found &= bits_of_range(of_b); found != 0; found &= found - 1) {
                 const std::uint32_t other =
                     of_b.first + static_cast<std::uint32_t>(std::countr_zero(found));
-                if (!sink_.use(sink_.user, {edge, other})) {
+                if (!sink_({edge, other})) {
                     return false;
                 }
             }
@@ -197,8 +197,7 @@ private:
                         continue;
                     }
                     bound_.Take(distances[lane]);
-                    if (!sink_.use(sink_.user,
-                                   {vertex, edge, vertices_are_of_a, distances[lane]})) {
+                    if (!sink_({vertex, edge, vertices_are_of_a, distances[lane]})) {
                         return false;
                     }
                 }
@@ -250,12 +249,6 @@ namespace nearfield::simd::kernels {
 HWY_EXPORT(ForCandidatePairs);
 HWY_EXPORT(ForClosest);
 HWY_EXPORT(ForWithin);
-
-bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
-                         const EdgePairSink& sink) {
-    VisitsLeft unlimited;
-    return for_candidate_pairs(first, second, margin, sink, unlimited);
-}
 
 bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
                          const EdgePairSink& sink, VisitsLeft& left) {

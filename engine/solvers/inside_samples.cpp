@@ -36,15 +36,15 @@ double InsideSamples::max_samples(const simd::TransformedEdges& a, const simd::T
     return count;
 }
 
-void InsideSamples::find_all(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-                             bool reversed, double spacing, simd::PointList& inside,
-                             const FullList& full) {
+void InsideSamples::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                         bool reversed, double spacing, simd::PointList& inside,
+                         FunctionRef<void()> use) {
     a_ = &a;
     b_ = &b;
     inside_ = &inside;
     inside_->clear();
     at_once_ = narrowphase::points_at_once(b.count);
-    full_ = full;
+    use_ = &use;
     doubtful_.clear();
     side_.reset();
     if (!is_small(b)) {
@@ -177,7 +177,7 @@ void InsideSamples::hand_over() {
     checkpoint();
     decide();
     if (inside_->size() > at_once_ / 2) {
-        full_.use(full_.data);
+        (*use_)();
         inside_->clear();
     }
 }

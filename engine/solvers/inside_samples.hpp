@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/function_ref.hpp>
 #include <engine/narrowphase/crossings.hpp>
 #include <engine/narrowphase/ray_parities.hpp>
 #include <engine/plan/edge_sampler.hpp>
@@ -24,12 +25,8 @@ public:
     /// that it has as many as are located at once, `use()` is called and it starts over.
     /// Precondition: unless both polygons are small, both are complete. Unspecified for samples on
     /// B's boundary. `reversed`: the previous call had the same polygons in the opposite order.
-    template <class Use>
     void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b, bool reversed,
-              double spacing, simd::PointList& inside, const Use& use) {
-        find_all(a, b, reversed, spacing, inside,
-                 {[](const void* data) { (*static_cast<const Use*>(data))(); }, &use});
-    }
+              double spacing, simd::PointList& inside, FunctionRef<void()> use);
 
     /// Upper bound on the number of samples that find() examines, inside or not. A double, since it
     /// may be huge. The same precondition.
@@ -49,14 +46,6 @@ private:
         Ticket side;
     };
 
-    /// What the caller does with a full list.
-    struct FullList {
-        void (*use)(const void* data) = nullptr;
-        const void* data = nullptr;
-    };
-
-    void find_all(const simd::TransformedEdges& a, const simd::TransformedEdges& b, bool reversed,
-                  double spacing, simd::PointList& inside, const FullList& full);
     [[nodiscard]] std::span<const std::uint32_t> edges_near(const simd::TransformedEdges& a,
                                                             const simd::TransformedEdges& b);
     /// Appends the inside samples of an edge that is divided into `parts`.
@@ -78,8 +67,8 @@ private:
     const simd::TransformedEdges* a_ = nullptr;
     const simd::TransformedEdges* b_ = nullptr;
     simd::PointList* inside_ = nullptr;
-    std::size_t at_once_ = 0;  // of a full list
-    FullList full_;
+    std::size_t at_once_ = 0;                   // of a full list
+    const FunctionRef<void()>* use_ = nullptr;  // what the caller does with a full list
     std::optional<Ticket> side_;  // of B, at the current position on A's boundary; or unknown
     narrowphase::RayParities sides_;
     std::vector<Doubtful> doubtful_;

@@ -83,9 +83,10 @@ double NearSamples::max_samples(const simd::TransformedEdges& a, const simd::Tra
     return count;
 }
 
-void NearSamples::find_all(double spacing, const FullList& full) {
-    const simd::TransformedEdges& b = *b_;
-    full_ = full;
+void NearSamples::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                       double distance, double spacing, FunctionRef<void()> use) {
+    begin(a, b, distance);
+    use_ = &use;
     if (is_small(b)) {
         picked_.pick(b, geometry::extent_of(geometry::grown(a_->box, reach_)));
         if (picked_.empty()) {
@@ -110,7 +111,7 @@ void NearSamples::find_all(double spacing, const FullList& full) {
 }
 
 void NearSamples::hand_over() {
-    full_.use(full_.data);
+    (*use_)();
     points_.clear();
     places_.clear();
 }

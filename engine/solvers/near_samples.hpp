@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/function_ref.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/simd/edge_subset.hpp>
 #include <engine/simd/parameter_intervals.hpp>
@@ -24,12 +25,8 @@ public:
     /// along A's rings; consecutive samples of a boundary are at most `spacing` apart (see
     /// plan::sample_chains). Calls `use()` for each list of samples, at most as many as are located
     /// at once. Precondition: unless both polygons are small, both are complete.
-    template <class Use>
     void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double distance,
-              double spacing, const Use& use) {
-        begin(a, b, distance);
-        find_all(spacing, {[](const void* data) { (*static_cast<const Use*>(data))(); }, &use});
-    }
+              double spacing, FunctionRef<void()> use);
 
     /// Upper bound on the number of samples that find() examines. A double, since it may be huge.
     /// The same precondition.
@@ -45,14 +42,7 @@ public:
 private:
     using Part = std::int64_t;  // of an edge; there may be more than 32 bits count
 
-    /// What the caller does with a list.
-    struct FullList {
-        void (*use)(const void* data) = nullptr;
-        const void* data = nullptr;
-    };
-
     void begin(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double distance);
-    void find_all(double spacing, const FullList& full);
     /// Hands the list over, and starts over.
     void hand_over();
     /// The edges of A that may come close to B.
@@ -63,8 +53,8 @@ private:
 
     const simd::TransformedEdges* a_ = nullptr;
     const simd::TransformedEdges* b_ = nullptr;
-    std::size_t at_once_ = 0;  // samples of a list
-    FullList full_;
+    std::size_t at_once_ = 0;                   // samples of a list
+    const FunctionRef<void()>* use_ = nullptr;  // what the caller does with a list
     double reach_ = 0.0;
     geometry::Box near_b_;                // contains all points within reach_ of B
     simd::EdgeSubset picked_;             // of a small B

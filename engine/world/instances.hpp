@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/function_ref.hpp>
 #include <engine/base/unique_numbers.hpp>
 #include <engine/geometry/polygon.hpp>
 #include <engine/localize/hierarchy.hpp>
@@ -22,14 +23,7 @@ namespace nearfield::world {
 using simd::BoxHierarchy;
 
 /// Looks up a shape; null if there is none of that handle.
-struct FindShape {
-    const geometry::Polygon* (*find)(void* user, ShapeHandle shape) = nullptr;
-    void* user = nullptr;
-
-    [[nodiscard]] const geometry::Polygon* operator()(ShapeHandle shape) const {
-        return find(user, shape);
-    }
-};
+using FindShape = FunctionRef<const geometry::Polygon*(ShapeHandle)>;
 
 /// The instances of a world, each named by an index, with what is kept of them: their boxes in a
 /// hierarchy, and the edges at their poses with the boxes over them, made when first needed.

@@ -40,22 +40,16 @@ void NearestQueries::find_on(std::uint32_t index) {
 
 void NearestQueries::find_edges_of(std::uint32_t index) {
     const simd::TransformedEdges& edges = instances_->edges(index);
-    struct Search {
-        NearestQueries& all;
-        const simd::TransformedEdges& edges;
-        std::uint32_t index;
-    } search{*this, edges, index};
-    const auto use = [](void* user, std::uint32_t edge) {
-        Search& of = *static_cast<Search*>(user);
+    const auto use = [&](std::uint32_t edge) {
         const geometry::NearestOnSegment on_edge =
-            geometry::nearest_on_segment(of.all.point_, of.edges.start(edge), of.edges.end(edge));
-        of.all.nearest_.offer({{std::sqrt(on_edge.squared_distance),
-                                of.all.instances_->number(of.index), of.index, edge},
-                               on_edge});
-        return of.all.nearest_.squared_reach(of.edges.rounding);
+            geometry::nearest_on_segment(point_, edges.start(edge), edges.end(edge));
+        nearest_.offer(
+            {{std::sqrt(on_edge.squared_distance), instances_->number(index), index, edge},
+             on_edge});
+        return nearest_.squared_reach(edges.rounding);
     };
     simd::kernels::for_edges_near(instances_->tree(index), point_.x(), point_.y(),
-                                  nearest_.squared_reach(edges.rounding), {use, &search});
+                                  nearest_.squared_reach(edges.rounding), use);
 }
 
 void NearestQueries::find_in(std::uint32_t index) {

@@ -49,14 +49,15 @@ bool meets(const Instances& all, std::uint32_t index, const Box& box) {
             const simd::TransformedEdges& edges;
             bool meets;
         } side{from, to, edges, false};
-        const auto use = [](void* user, std::uint32_t edge) {
-            Side& of = *static_cast<Side*>(user);
-            of.meets = of.meets || geometry::segments_meet(of.from, of.to, of.edges.start(edge),
-                                                           of.edges.end(edge), of.edges.rounding);
-            return of.meets ? -1.0 : 1.0;
+        const auto use = [&side](std::uint32_t edge) {
+            const Side& of = side;
+            side.meets =
+                side.meets || geometry::segments_meet(of.from, of.to, of.edges.start(edge),
+                                                      of.edges.end(edge), of.edges.rounding);
+            return side.meets ? -1.0 : 1.0;
         };
         simd::kernels::for_edges_along(tree, {from.x(), from.y(), to.x(), to.y()}, edges.rounding,
-                                       1.0, {use, &side});
+                                       1.0, use);
         if (side.meets) {
             return true;
         }

@@ -201,10 +201,8 @@ const world::Instances& WorldRequest::State::instances_for_cpu() {
         }
         moves_for_cpu_[i] = instances_.moves(i);
     }
-    const auto find = [](void* of, ShapeHandle shape) {
-        return static_cast<const DeviceInstances*>(of)->polygon_of(shape);
-    };
-    for_cpu_->prepare({find, &instances_}, instances_.shapes_revision());
+    for_cpu_->prepare([this](ShapeHandle shape) { return instances_.polygon_of(shape); },
+                      instances_.shapes_revision());
     return *for_cpu_;
 }
 

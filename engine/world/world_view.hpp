@@ -15,10 +15,8 @@ struct WorldView {
 
     /// Takes in what has changed in the world.
     void prepare() const {
-        constexpr auto find_shape = [](void* store, ShapeHandle shape) -> const geometry::Polygon* {
-            return static_cast<batch::ShapeStore*>(store)->find(shape);
-        };
-        instances.prepare({find_shape, &context.shapes()}, context.shapes().revision());
+        batch::ShapeStore& shapes = context.shapes();
+        instances.prepare([&](ShapeHandle shape) { return shapes.find(shape); }, shapes.revision());
     }
 };
 

@@ -131,7 +131,9 @@ TEST(RayParities, OfPlacesOnEdgesAreThoseOfOneRay) {
             const simd::kernels::Ray ray{place.x(), place.y(),
                                          std::abs(along.y()) < std::abs(along.x())};
             const simd::kernels::LineOfEdge line{along.x(), along.y(), edges.rounding};
-            expected.push_back(simd::kernels::crossings_of_others_are_odd(tree, ray, line));
+            simd::VisitsLeft unlimited;
+            expected.push_back(
+                simd::kernels::crossings_of_others_are_odd(tree, ray, line, unlimited));
             tickets.push_back(parities.ask(ray, line));
             late += tickets.back() > RayParities::odd ? 1 : 0;
         }

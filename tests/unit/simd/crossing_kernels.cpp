@@ -81,9 +81,10 @@ TEST(CrossingKernels, CountFromAnyPointAsOneByOne) {
             for (const int along : {0, 1}) {
                 const bool expected =
                     are_odd_one_by_one(edges, point, along, [](std::uint32_t) { return true; });
-                EXPECT_EQ(
-                    kernels::crossings_are_odd(edges.tree(), {point.x(), point.y(), along == 1}),
-                    expected)
+                VisitsLeft unlimited;
+                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(),
+                                                     {point.x(), point.y(), along == 1}, unlimited),
+                          expected)
                     << point.transpose() << ", along " << along;
                 odd += expected ? 1 : 0;
                 ++all;
@@ -151,9 +152,10 @@ TEST(CrossingKernels, CountFromAPlaceOnAnEdgeAllButThoseAlongIt) {
                 return !on_line;
             });
             more_left_out += left_out > 1 ? 1 : 0;
-            EXPECT_EQ(kernels::crossings_of_others_are_odd(edges.tree(),
-                                                           {point.x(), point.y(), along == 1},
-                                                           {direction.x(), direction.y(), 1e-12}),
+            VisitsLeft unlimited;
+            EXPECT_EQ(kernels::crossings_of_others_are_odd(
+                          edges.tree(), {point.x(), point.y(), along == 1},
+                          {direction.x(), direction.y(), 1e-12}, unlimited),
                       expected)
                 << "edge " << edge << " at " << point.transpose();
         }
@@ -179,9 +181,10 @@ TEST(CrossingKernels, LeaveOutWhatSeemsToLieAhead) {
         }
         constexpr double rounding = 1e-3;
         const Vector on_edge = edges.at(edge, 0.5);
-        EXPECT_EQ(kernels::crossings_of_others_are_odd(edges.tree(),
-                                                       {on_edge.x() - 2.0 * rounding, on_edge.y()},
-                                                       {direction.x(), direction.y(), rounding}),
+        VisitsLeft unlimited;
+        EXPECT_EQ(kernels::crossings_of_others_are_odd(
+                      edges.tree(), {on_edge.x() - 2.0 * rounding, on_edge.y()},
+                      {direction.x(), direction.y(), rounding}, unlimited),
                   are_odd_one_by_one(edges, on_edge, 0,
                                      [edge](std::uint32_t other) { return other != edge; }))
             << "edge " << edge;

@@ -81,13 +81,13 @@ std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose
         add_stretches(
             kernels::find_intervals_near(edges_b, edge, tree, 0.05, unlimited, intervals.data()));
     }
-    const auto say_pair = [](void* numbers, const EdgePair& pair) {
-        static_cast<std::vector<double>*>(numbers)->insert(
-            static_cast<std::vector<double>*>(numbers)->end(),
-            {static_cast<double>(pair.first), static_cast<double>(pair.second)});
+    const auto say_pair = [&](const EdgePair& pair) {
+        said.insert(said.end(),
+                    {static_cast<double>(pair.first), static_cast<double>(pair.second)});
         return true;
     };
-    kernels::for_candidate_pairs(tree, edges_b.tree(), 1e-15, {say_pair, &said});
+    VisitsLeft unlimited;
+    kernels::for_candidate_pairs(tree, edges_b.tree(), 1e-15, say_pair, unlimited);
     return said;
 }
 
