@@ -111,6 +111,19 @@ narrowphase::ClosestPair ConservativeAdvancement::find_closest(double at_most) {
     return finder_.find(transformed_a(), transformed_b(), at_most, 0.0);
 }
 
+bool ConservativeAdvancement::find_near(double distance, std::size_t most) {
+    const simd::TransformedEdges& a = transformed_a();
+    const simd::TransformedEdges& b = transformed_b();
+    // Covers the rounding of the kernels, the boxes and the transformed vertices.
+    const double limit = distance * (1.0 + 1e-12) + a.rounding + b.rounding;
+    near_.clear();
+    return !simd::kernels::for_within(a.tree(), b.tree(), limit * limit,
+                                      [&](const simd::VertexAndEdge& found) {
+                                          near_.push_back(found);
+                                          return near_.size() <= most;
+                                      });
+}
+
 double ConservativeAdvancement::pair_step(const simd::VertexAndEdge& pair, double keep) const {
     const simd::TransformedEdges& vertices =
         pair.vertex_of_first ? transformed_a() : transformed_b();
@@ -145,13 +158,12 @@ double ConservativeAdvancement::safe_step(double distance, double keep, double l
     if (step >= left) {
         return left;
     }
-    near_.begin(transformed_a(), transformed_b());
     const std::size_t most = max_pairs + (transformed_a().count + transformed_b().count) / 2;
     const double min_reach = 4.0 * distance;
     double reach = std::max(reach_, min_reach);
     bool may_grow = true;
     for (;;) {
-        if (!near_.find(reach, most)) {
+        if (!find_near(reach, most)) {
             reach_ = reach / 2.0;
             if (reach == min_reach || !may_grow) {
                 return step;
@@ -162,7 +174,7 @@ double ConservativeAdvancement::safe_step(double distance, double keep, double l
         }
         const double of_others = std::min(motion_.time(reach - keep), left);
         double of_pairs = no_end;
-        for (const simd::VertexAndEdge& pair : near_.found()) {
+        for (const simd::VertexAndEdge& pair : near_) {
             of_pairs = std::min(of_pairs, pair_step(pair, keep));
         }
         step = std::max(step, std::min(of_pairs, of_others));

@@ -2,12 +2,12 @@
 
 #include <engine/narrowphase/closest_pair.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/narrowphase/vertex_edge_pairs.hpp>
 #include <engine/simd/transformed_edges.hpp>
 #include <engine/toi/motion.hpp>
 
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace nearfield::toi {
 
@@ -89,6 +89,10 @@ private:
     [[nodiscard]] bool settle(const ContactAim& aim, const Look& look, Impact& contact);
     /// How long no vertex and edge come as close as `keep`; at most `left`. `distance`: now.
     [[nodiscard]] double safe_step(double distance, double keep, double left);
+    /// Lists every vertex of one shape and edge of the other at most `distance` apart, and perhaps
+    /// a few more, in near_: separate boundaries first touch at such a pair. Returns false, with
+    /// only some of them listed, if there are more than `most`.
+    [[nodiscard]] bool find_near(double distance, std::size_t most);
     [[nodiscard]] double pair_step(const simd::VertexAndEdge& pair, double keep) const;
 
     const Motion* a_ = nullptr;
@@ -105,7 +109,7 @@ private:
     double reach_ = 0.0;  // search distance for pairs in the last step, reduced if it did not pay
     narrowphase::OverlapTest overlap_test_;
     narrowphase::ClosestPairFinder finder_;
-    narrowphase::VertexEdgePairFinder near_;
+    std::vector<simd::VertexAndEdge> near_;
 };
 
 }  // namespace nearfield::toi
