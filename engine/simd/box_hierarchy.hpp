@@ -37,6 +37,32 @@ void for_nearest_first(const BoxKeys& keys, const Bound& bound, const Use& use) 
     }
 }
 
+/// Calls `use(edge)` for the edges in all boxes of some levels of a tree whose squared distance
+/// from a box is at most `bound()`, which may fall; nearer boxes come first. `first`: of eight
+/// boxes.
+template <class Bound, class Use>
+void for_edges_near(const AabbTree& tree, std::uint32_t level, std::uint32_t first,
+                    const Extent& from, const Bound& bound, const Use& use) {
+    BoxKeys keys;
+    kernels::measure_boxes(tree.level(level), first, from, keys);
+    for_nearest_first(keys, bound, [&](std::uint32_t i) {
+        const std::uint32_t box = first + i;
+        if (level > 0) {
+            for_edges_near(tree, level - 1, AabbTree::fan_out * box, from, bound, use);
+            return;
+        }
+        const EdgeRange range = tree.edges_of(box);
+        for (std::uint32_t edge = range.first; edge < range.end; ++edge) {
+            use(edge);
+        }
+    });
+}
+/// The same for the whole tree.
+template <class Bound, class Use>
+void for_edges_near(const AabbTree& tree, const Extent& from, const Bound& bound, const Use& use) {
+    for_edges_near(tree, tree.top_level(), 0, from, bound, use);
+}
+
 /// A dynamic tree over many boxes, each named by a number of the caller's: eight boxes in one node,
 /// tested together. A box that changes is refitted along its path to the root; once many changes
 /// have made the nodes much larger, everything is ordered anew along a Hilbert curve.

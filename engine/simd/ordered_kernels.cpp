@@ -118,44 +118,6 @@ private:
     Aim& aim_;
 };
 
-/// The edges along a path.
-class AlongPath {
-public:
-    HWY_INLINE AlongPath(const AabbTree& tree, const Path& path, double margin, double bound,
-                         const BoundedEdgeSink& sink)
-        : tree_(tree),
-          lanes_(path, PathInverse(path)),
-          // Twice the margin, because the values that boxes are compared by are rounded too.
-          margin_(hn::Set(Tag(), 2.0 * margin)),
-          path_{1, &path.from_x, &path.from_y, &path.to_x, &path.to_y, nullptr},
-          own_margin_(margin),
-          sink_(sink),
-          bound_(bound) {}
-
-    [[nodiscard]] HWY_INLINE Lanes Keys(const LanesOfExtent& boxes) const {
-        return entries(boxes, lanes_, margin_);
-    }
-    [[nodiscard]] HWY_INLINE double bound() const { return bound_; }
-    HWY_INLINE void Use(std::uint32_t box) {
-        const EdgeRange range = tree_.edges_of(box);
-        std::uint32_t found = bits_of_eight([&](std::size_t i) HWY_ATTR {
-            return may_meet(path_, 0, EdgeLanes(tree_.edges(), range.first + i), own_margin_);
-        });
-        for (found &= bits_of_range(range); found != 0; found &= found - 1) {
-            bound_ = sink_(range.first + static_cast<std::uint32_t>(std::countr_zero(found)));
-        }
-    }
-
-private:
-    const AabbTree& tree_;
-    PathLanes lanes_;
-    Lanes margin_;
-    EdgeArrays path_;
-    double own_margin_;
-    const BoundedEdgeSink& sink_;
-    double bound_;
-};
-
 /// The edges near a point.
 class NearPoint {
 public:
@@ -186,12 +148,6 @@ private:
     const BoundedEdgeSink& sink_;
     double bound_;
 };
-
-void ForEdgesAlong(const AabbTree& tree, const Path& path, double margin, double bound,
-                   const BoundedEdgeSink& sink) {
-    AlongPath aim(tree, path, margin, bound, sink);
-    OrderedSearch<AlongPath>(tree, aim).Run();
-}
 
 void ForEdgesNear(const AabbTree& tree, double x, double y, double bound,
                   const BoundedEdgeSink& sink) {
@@ -286,17 +242,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nearfield::simd::kernels {
 
-HWY_EXPORT(ForEdgesAlong);
 HWY_EXPORT(ForEdgesNear);
 HWY_EXPORT(ForClosestToFew);
 HWY_EXPORT(MeasureBoxes);
 HWY_EXPORT(TakeSteps);
 HWY_EXPORT(JoinBoxes);
-
-void for_edges_along(const AabbTree& tree, const Path& path, double margin, double bound,
-                     const BoundedEdgeSink& sink) {
-    HWY_DYNAMIC_DISPATCH(ForEdgesAlong)(tree, path, margin, bound, sink);
-}
 
 void for_edges_near(const AabbTree& tree, double x, double y, double bound,
                     const BoundedEdgeSink& sink) {

@@ -105,11 +105,6 @@ struct PathLists {
 
 namespace kernels {
 
-/// Calls `sink` for every edge that the path may come within `margin` of at a parameter of at most
-/// the bound, and for few others; begins with `bound`, which is at most 1.
-void for_edges_along(const AabbTree& tree, const Path& path, double margin, double bound,
-                     const BoundedEdgeSink& sink);
-
 /// Calls `sink` for every edge whose squared distance from a point is at most the bound, up to
 /// rounding; begins with `bound`.
 void for_edges_near(const AabbTree& tree, double x, double y, double bound,

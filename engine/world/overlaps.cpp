@@ -40,36 +40,20 @@ bool meets(const Instances& all, std::uint32_t index, const Box& box) {
     const simd::AabbTree& tree = all.tree(index);
     const std::array<Vector, 4> corners{box.min(), box.corner(Box::BottomRight), box.max(),
                                         box.corner(Box::TopLeft)};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vector& from = corners[i];
-        const Vector& to = corners[(i + 1) % corners.size()];
-        struct Side {
-            const Vector& from;
-            const Vector& to;
-            const simd::TransformedEdges& edges;
-            bool meets;
-        } side{from, to, edges, false};
-        const auto use = [&side](std::uint32_t edge) {
-            const Side& of = side;
-            side.meets =
-                side.meets || geometry::segments_meet(of.from, of.to, of.edges.start(edge),
-                                                      of.edges.end(edge), of.edges.rounding);
-            return side.meets ? -1.0 : 1.0;
+    const auto comes_in = [&](std::uint32_t edge) {
+        const auto meets_side = [&](std::size_t side) {
+            return geometry::segments_meet(corners[side], corners[(side + 1) % corners.size()],
+                                           edges.start(edge), edges.end(edge), edges.rounding);
         };
-        simd::kernels::for_edges_along(tree, {from.x(), from.y(), to.x(), to.y()}, edges.rounding,
-                                       1.0, use);
-        if (side.meets) {
-            return true;
-        }
-    }
-    // No edge crosses the rectangle's sides: each ring lies inside or outside of them.
-    const geometry::Polygon& polygon = all.polygon(index);
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        if (box.contains(edges.start(polygon.ring_begin(ring)))) {
-            return true;
-        }
-    }
-    return simd::kernels::contain(tree, box.min().x(), box.min().y());
+        return box.contains(edges.start(edge)) || meets_side(0) || meets_side(1) || meets_side(2) ||
+               meets_side(3);
+    };
+    const double reach = 2.0 * edges.rounding;
+    bool found = false;
+    simd::for_edges_near(
+        tree, geometry::extent_of(box), [&] { return found ? -1.0 : reach * reach; },
+        [&](std::uint32_t edge) { found = found || comes_in(edge); });
+    return found || simd::kernels::contain(tree, box.min().x(), box.min().y());
 }
 
 void require_rectangles(std::span<const Rectangle> rectangles) {

@@ -14,26 +14,6 @@ using geometry::Vector;
 constexpr double unit_of_one = std::numeric_limits<double>::epsilon();
 constexpr double far_away = std::numeric_limits<double>::infinity();
 
-/// Calls `use(edge)` for the edges in all boxes whose squared distance from a box is at most
-/// `bound()`, which falls; nearer boxes come first.
-template <class Bound, class Use>
-void for_edges_near(const simd::AabbTree& tree, std::uint32_t level, std::uint32_t first,
-                    const simd::Extent& from, const Bound& bound, const Use& use) {
-    simd::BoxKeys keys;
-    simd::kernels::measure_boxes(tree.level(level), first, from, keys);
-    simd::for_nearest_first(keys, bound, [&](std::uint32_t i) {
-        const std::uint32_t box = first + i;
-        if (level > 0) {
-            for_edges_near(tree, level - 1, simd::AabbTree::fan_out * box, from, bound, use);
-            return;
-        }
-        const simd::EdgeRange range = tree.edges_of(box);
-        for (std::uint32_t edge = range.first; edge < range.end; ++edge) {
-            use(edge);
-        }
-    });
-}
-
 /// The closest points of an edge and a boundary that does not hold the edge.
 struct Closest {
     Vector on_boundary = Vector::Zero();
@@ -48,8 +28,8 @@ Closest find_closest(const simd::TransformedEdges& boundary, const Vector& start
     Closest closest;
     geometry::Box box(start.cwiseMin(end), start.cwiseMax(end));
     const simd::AabbTree tree = boundary.tree();
-    for_edges_near(
-        tree, tree.top_level(), 0, geometry::extent_of(box),
+    simd::for_edges_near(
+        tree, geometry::extent_of(box),
         [&] { return std::min(most, (1.0 + 16.0 * unit_of_one) * closest.squared); },
         [&](std::uint32_t edge) {
             const geometry::ClosestOfSegments found =
@@ -93,9 +73,8 @@ void ShapeEdgeQueries::measure(std::uint32_t index, std::uint32_t edge) {
 void ShapeEdgeQueries::find_edges_of(std::uint32_t index) {
     const simd::AabbTree& tree = instances_->tree(index);
     const double rounding = instances_->rounding(index) + shape().rounding;
-    for_edges_near(
-        tree, tree.top_level(), 0, geometry::extent_of(shape().box),
-        [&] { return nearest_.squared_reach(rounding); },
+    simd::for_edges_near(
+        tree, geometry::extent_of(shape().box), [&] { return nearest_.squared_reach(rounding); },
         [&](std::uint32_t edge) { measure(index, edge); });
 }
 
