@@ -80,8 +80,11 @@ std::size_t SetPlan::find(const Pass& pass, std::uint32_t number) {
 }
 
 BoundResources::BoundResources(const gpu::Device& device, const ComputeLayout& layout,
-                               const Graph& graph, const SetPlan& plan, Executor& executor)
-    : graph_(&graph), plan_(&plan), executor_(&executor), resources_(graph.resources().size()) {
+                               const Graph& graph, const SetPlan& plan, const Executor& executor)
+    : graph_(&graph),
+      plan_(&plan),
+      resources_(graph.resources().size()),
+      imported_(graph.resources().size()) {
     for (const SetPlan::Set& set : plan.sets()) {
         for (const Binding& binding : set.bindings) {
             std::vector<gpu::BufferPart>& parts = resources_[binding.resource].parts;
@@ -90,7 +93,7 @@ BoundResources::BoundResources(const gpu::Device& device, const ComputeLayout& l
     }
     for (std::uint32_t i = 0; i < resources_.size(); ++i) {
         resources_[i].parts.resize(std::max<std::size_t>(resources_[i].parts.size(), 1));
-        resources_[i].image.view = executor.sampled_view({i, 0});
+        imported_[i].image.view = executor.sampled_view({i, 0});
         resources_[i].has_changed = true;
     }
     if (!plan.sets().empty()) {
@@ -119,6 +122,9 @@ void BoundResources::set(Handle handle, const gpu::BufferPart& part, std::uint32
     if (handle == Handle{}) {
         return;
     }
+    if (number == 0) {
+        imported_[handle.resource].buffer = {part.buffer};
+    }
     Resource& resource = resources_[handle.resource];
     if (number < resource.parts.size() && part != resource.parts[number]) {
         resource.parts[number] = part;
@@ -129,29 +135,17 @@ void BoundResources::set(Handle handle, const gpu::BufferPart& part, std::uint32
 void BoundResources::set(Handle handle, const gpu::BufferPart& part,
                          const std::optional<ExternalUses>& uses) {
     set(handle, part);
-    resources_[handle.resource].uses = uses;
+    if (uses) {
+        imported_[handle.resource].buffer = {part.buffer, part.offset, part.bytes, uses};
+    }
 }
 
 void BoundResources::set(Handle handle, const ImportedImage& image) {
-    Resource& resource = resources_[handle.resource];
-    if (image.view != resource.image.view || image.identity != resource.image.identity) {
-        resource.has_changed = true;
+    ImportedImage& before = imported_[handle.resource].image;
+    if (image.view != before.view || image.identity != before.identity) {
+        resources_[handle.resource].has_changed = true;
     }
-    resource.image = image;
-}
-
-void BoundResources::set_barriers() const {
-    for (std::uint32_t i = 0; i < resources_.size(); ++i) {
-        const Resource& resource = resources_[i];
-        const gpu::BufferPart& part = resource.parts.front();
-        if (resource.image.image != VK_NULL_HANDLE) {
-            executor_->set_image({i, 0}, resource.image);
-        } else if (part.buffer != VK_NULL_HANDLE && resource.uses) {
-            executor_->set_buffer({i, 0}, {part.buffer, part.offset, part.bytes, resource.uses});
-        } else if (part.buffer != VK_NULL_HANDLE) {
-            executor_->set_buffer({i, 0}, part.buffer);
-        }
-    }
+    before = image;
 }
 
 void DescriptorUpdates::end() {
@@ -193,7 +187,8 @@ void DescriptorUpdates::add_writes(const BoundResources& resources, VkDescriptor
     const BoundResources::Resource& resource = resources.resources_[binding.resource];
     const Resource& declared = resources.graph_->resources()[binding.resource];
     const gpu::BufferPart& part = resource.parts[binding.part];
-    if (declared.is_image ? resource.image.view == VK_NULL_HANDLE : part.buffer == VK_NULL_HANDLE) {
+    const VkImageView view = resources.imported_[binding.resource].image.view;
+    if (declared.is_image ? view == VK_NULL_HANDLE : part.buffer == VK_NULL_HANDLE) {
         throw StatusException(graph_error("'" + declared.name() +
                                           "' was not set before the descriptor sets of the graph "
                                           "were updated"));
@@ -202,7 +197,7 @@ void DescriptorUpdates::add_writes(const BoundResources& resources, VkDescriptor
         const bool is_sampled =
             ComputeLayout::type_of(binding.binding) == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         add_write(set, binding.binding,
-                  {.image = {VK_NULL_HANDLE, resource.image.view,
+                  {.image = {VK_NULL_HANDLE, view,
                              is_sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                         : VK_IMAGE_LAYOUT_GENERAL}});
         return;

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,7 @@ class BoundResources {
 public:
     /// Allocates the sets. Throws StatusException as the driver fails.
     BoundResources(const gpu::Device& device, const ComputeLayout& layout, const Graph& graph,
-                   const SetPlan& plan, Executor& executor);
+                   const SetPlan& plan, const Executor& executor);
 
     /// Says what is behind a handle (nothing of a null handle), or one of the parts that passes
     /// bind. It stays until it is set to something else; the device must not be using these
@@ -65,15 +66,13 @@ public:
     [[nodiscard]] VkDescriptorSet set_of(std::size_t pass, std::size_t number) const {
         return sets_[plan_->of_passes()[pass][number]];
     }
-    /// Lets the barriers of an execution be about these resources.
-    void set_barriers() const;
+    /// By resource: what the barriers of an execution are about.
+    [[nodiscard]] std::span<const Imported> imported() const { return imported_; }
 
 private:
     struct Resource {
         std::vector<gpu::BufferPart> parts;  ///< of a buffer
-        ImportedImage image;                 ///< or this
-        std::optional<ExternalUses> uses;
-        bool has_changed = false;  ///< since the sets were updated
+        bool has_changed = false;            ///< since the sets were updated
     };
     friend class DescriptorUpdates;
 
@@ -81,10 +80,10 @@ private:
 
     const Graph* graph_;
     const SetPlan* plan_;
-    Executor* executor_;
     gpu::Owned<VkDescriptorPool> pool_;
     std::vector<VkDescriptorSet> sets_;  // freed with the pool
     std::vector<Resource> resources_;
+    std::vector<Imported> imported_;  // by resource, as these
 };
 
 /// Lets the descriptor sets of resources refer to what was set, where that is not what they refer

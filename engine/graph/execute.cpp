@@ -74,7 +74,7 @@ gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPa
 }  // namespace
 
 Executor::Executor(const gpu::Device& device, const Graph& graph, BakedGraph baked)
-    : device_(&device), baked_(std::move(baked)), imported_(graph.resources().size()) {
+    : device_(&device), baked_(std::move(baked)) {
     create_images(graph);
     allocate_memory(graph);
     create_views(graph);
@@ -179,8 +179,7 @@ VkImageView Executor::sampled_view(Handle handle) const {
     return images_[handle.resource].sampled_view.get();
 }
 
-void Executor::add(const Resource& resource, const Barrier& declared) {
-    const Imported& imported = imported_[declared.resource];
+void Executor::add(const Resource& resource, const Imported& imported, const Barrier& declared) {
     const VkImage own = images_[declared.resource].image.get();
     const VkImage image = own != VK_NULL_HANDLE ? own : imported.image.image;
     if (resource.is_image ? image == VK_NULL_HANDLE : imported.buffer.buffer == VK_NULL_HANDLE) {
@@ -225,8 +224,8 @@ void Executor::add(const Resource& resource, const Barrier& declared) {
     destination_stages_ |= barrier.destination_stages;
 }
 
-void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
-                               const std::vector<Barrier>& barriers) {
+void Executor::record_barriers(const Graph& graph, std::span<const Imported> imported,
+                               VkCommandBuffer commands, const std::vector<Barrier>& barriers) {
     if (barriers.empty()) {
         return;
     }
@@ -235,7 +234,7 @@ void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
     buffer_barriers_.clear();
     source_stages_ = destination_stages_ = 0;
     for (const Barrier& barrier : barriers) {
-        add(graph.resources()[barrier.resource], barrier);
+        add(graph.resources()[barrier.resource], imported[barrier.resource], barrier);
     }
     device_->functions().vkCmdPipelineBarrier(
         commands, source_stages_, destination_stages_, 0,
@@ -244,14 +243,15 @@ void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
         static_cast<std::uint32_t>(image_barriers_.size()), image_barriers_.data());
 }
 
-void Executor::execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                       const std::function<void(std::size_t, VkCommandBuffer)>& record) {
+void Executor::execute(const Graph& graph, std::span<const Imported> imported,
+                       VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                       FunctionRef<void(std::size_t, VkCommandBuffer)> record) {
     for (std::size_t position = 0; position < baked_.passes.size(); ++position) {
         const BakedPass& baked = baked_.passes[position];
         const Pass& pass = graph.passes()[baked.pass];
         device_->begin_label(commands, pass.name.c_str());
         timestamps.begin(commands, pass.name.c_str());
-        record_barriers(graph, commands, baked.barriers);
+        record_barriers(graph, imported, commands, baked.barriers);
         if (pass.kind == PassKind::graphics) {
             VkRenderPassBeginInfo info{};
             info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
@@ -267,7 +267,7 @@ void Executor::execute(const Graph& graph, VkCommandBuffer commands, gpu::Timest
         timestamps.end(commands);
         device_->end_label(commands);
     }
-    record_barriers(graph, commands, baked_.to_host);
+    record_barriers(graph, imported, commands, baked_.to_host);
 }
 
 std::unique_ptr<Executor> make_executor(const gpu::Device& device, const Graph& graph) {

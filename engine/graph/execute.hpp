@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/function_ref.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/memory.hpp>
 #include <engine/gpu/owned.hpp>
@@ -9,9 +10,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace nearfield::graph {
@@ -52,6 +53,11 @@ struct ImportedImage {
     /// Of the view: once it is gone, another one may have its handle.
     std::uint64_t identity = 0;
 };
+/// The one or the other.
+struct Imported {
+    ImportedBuffer buffer;
+    ImportedImage image;
+};
 
 /// The Vulkan objects of a baked graph (transient images in shared memory, views, render passes,
 /// framebuffers) and its execution into a command buffer. Made once per graph, used every frame;
@@ -59,17 +65,6 @@ struct ImportedImage {
 class Executor {
 public:
     Executor(const gpu::Device& device, const Graph& graph, BakedGraph baked);
-
-    /// Sets the buffer behind an imported handle, which may change from frame to frame since
-    /// buffers grow. All must be set before the first execution.
-    void set_buffer(Handle handle, VkBuffer buffer) { set_buffer(handle, ImportedBuffer{buffer}); }
-    void set_buffer(Handle handle, const ImportedBuffer& imported) {
-        imported_[handle.resource].buffer = imported;
-    }
-    /// The same for the image behind an imported handle.
-    void set_image(Handle handle, const ImportedImage& imported) {
-        imported_[handle.resource].image = imported;
-    }
 
     /// The view that a compute shader samples: of the colour or depth aspect.
     [[nodiscard]] VkImageView sampled_view(Handle handle) const;
@@ -79,10 +74,12 @@ public:
 
     /// Records all passes, each labelled with its name and timed: `record` is called for what is
     /// between a pass's barriers and its end, with the pass's position in Graph::passes().
+    /// `imported`: by resource, where it is imported.
     /// Executions that share these images may be in progress at the same time on one queue; their
     /// buffers must differ.
-    void execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                 const std::function<void(std::size_t, VkCommandBuffer)>& record);
+    void execute(const Graph& graph, std::span<const Imported> imported, VkCommandBuffer commands,
+                 gpu::Timestamps& timestamps,
+                 FunctionRef<void(std::size_t, VkCommandBuffer)> record);
 
     [[nodiscard]] const BakedGraph& baked() const { return baked_; }
 
@@ -97,27 +94,20 @@ private:
         gpu::Owned<VkFramebuffer> framebuffer;
     };
 
-    /// What is behind a handle, if it is imported.
-    struct Imported {
-        ImportedBuffer buffer;
-        ImportedImage image;
-    };
-
     void create_images(const Graph& graph);
     void allocate_memory(const Graph& graph);
     void create_views(const Graph& graph);
     void create_graphics(const Graph& graph);
     /// Adds a barrier to those of the next call.
-    void add(const Resource& resource, const Barrier& declared);
-    void record_barriers(const Graph& graph, VkCommandBuffer commands,
-                         const std::vector<Barrier>& barriers);
+    void add(const Resource& resource, const Imported& imported, const Barrier& declared);
+    void record_barriers(const Graph& graph, std::span<const Imported> imported,
+                         VkCommandBuffer commands, const std::vector<Barrier>& barriers);
 
     const gpu::Device* device_;
     BakedGraph baked_;
     std::vector<gpu::DeviceMemory> memory_;  // by memory slot
     std::vector<Image> images_;              // by resource
     std::vector<GraphicsPass> graphics_;     // by position in baked_.passes
-    std::vector<Imported> imported_;         // by resource
     // Of the next vkCmdPipelineBarrier; memory for most.
     std::vector<VkMemoryBarrier> memory_barriers_;
     std::vector<VkImageMemoryBarrier> image_barriers_;

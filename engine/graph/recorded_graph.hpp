@@ -66,11 +66,10 @@ public:
     /// Records all passes; see Executor::execute.
     void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps,
                  const BoundResources& resources, const Input& input) const {
-        resources.set_barriers();
         const auto record = [&](std::size_t pass, VkCommandBuffer into) {
             records_[pass](PassCommands(into, &resources, pass), input);
         };
-        executor().execute(*this, commands, timestamps, std::ref(record));
+        executor().execute(*this, resources.imported(), commands, timestamps, record);
     }
 
 private:

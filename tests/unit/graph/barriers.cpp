@@ -193,13 +193,14 @@ TEST(GraphBarriers, ThatWereBakedAreThoseRecorded) {
         Executor executor(device, graph, *bake(graph));
         std::vector<std::unique_ptr<gpu::MappedBuffer>> memory;
         std::map<std::uint32_t, VkBuffer> buffers;
+        std::vector<Imported> imported(graph.resources().size());
         for (std::uint32_t i = 0; i < graph.resources().size(); ++i) {
             if (!graph.resources()[i].is_image) {
                 memory.push_back(std::make_unique<gpu::MappedBuffer>(
                     device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::none, "buffer"));
                 memory.back()->reserve(16);
                 buffers[i] = memory.back()->handle();
-                executor.set_buffer({i, 0}, buffers[i]);
+                imported[i].buffer = {buffers[i]};
             }
         }
         gpu::Submission submission(device);
@@ -207,7 +208,7 @@ TEST(GraphBarriers, ThatWereBakedAreThoseRecorded) {
         calls.clear();
         VkCommandBuffer commands = submission.begin();
         timestamps.reset(commands);
-        executor.execute(graph, commands, timestamps, no_commands);
+        executor.execute(graph, imported, commands, timestamps, no_commands);
         BakedGraph baked = executor.baked();
         std::size_t next = 0;
         for (const std::vector<Barrier>* const list : lists_of(baked)) {

@@ -24,19 +24,21 @@ namespace {
 class GraphExecute : public test_support::GpuTest {};
 
 /// Buffers for all imported handles of a graph.
-std::vector<std::unique_ptr<gpu::MappedBuffer>> set_buffers(const gpu::Device& device,
-                                                            const Graph& graph,
-                                                            Executor& executor) {
-    std::vector<std::unique_ptr<gpu::MappedBuffer>> buffers;
+struct Buffers {
+    std::vector<std::unique_ptr<gpu::MappedBuffer>> memory;
+    std::vector<Imported> imported;
+};
+Buffers buffers_for(const gpu::Device& device, const Graph& graph) {
+    Buffers buffers{{}, std::vector<Imported>(graph.resources().size())};
     for (std::uint32_t i = 0; i < graph.resources().size(); ++i) {
         if (graph.resources()[i].is_image) {
             continue;
         }
-        buffers.push_back(std::make_unique<gpu::MappedBuffer>(
+        buffers.memory.push_back(std::make_unique<gpu::MappedBuffer>(
             device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
             gpu::Direction::readback, graph.resources()[i].name()));
-        buffers.back()->reserve(256);
-        executor.set_buffer({i, 0}, buffers.back()->handle());
+        buffers.memory.back()->reserve(256);
+        buffers.imported[i].buffer = {buffers.memory.back()->handle()};
     }
     return buffers;
 }
@@ -75,13 +77,13 @@ TEST_F(GraphExecute, RandomGraphsRunTwiceWithNothingToComplainOf) {
         const RandomGraph random(seed, device.stencil_format());
         const Graph& graph = random.graph();
         Executor executor(device, graph, *bake(graph));
-        const auto buffers = set_buffers(device, graph, executor);
+        const Buffers buffers = buffers_for(device, graph);
         gpu::Submission submission(device);
         gpu::Timestamps timestamps(device, 2 * static_cast<std::uint32_t>(graph.passes().size()));
         VkCommandBuffer commands = submission.begin();
         timestamps.reset(commands);
-        executor.execute(graph, commands, timestamps, no_commands);
-        executor.execute(graph, commands, timestamps, no_commands);
+        executor.execute(graph, buffers.imported, commands, timestamps, no_commands);
+        executor.execute(graph, buffers.imported, commands, timestamps, no_commands);
         submission.submit();
         submission.wait();
         ASSERT_EQ(host_.messages(), std::vector<std::string>{})
@@ -149,7 +151,8 @@ TEST_F(GraphExecute, BufferThatWasNotSetIsNamed) {
     VkCommandBuffer commands = submission.begin();
     timestamps.reset(commands);
     try {
-        executor.execute(two.graph, commands, timestamps, no_commands);
+        executor.execute(two.graph, std::vector<Imported>(two.graph.resources().size()), commands,
+                         timestamps, no_commands);
         FAIL() << "no Failure";
     } catch (const StatusException& failure) {
         EXPECT_NE(failure.status().message().find("'records'"), std::string::npos);
@@ -262,7 +265,7 @@ TEST_F(GraphExecute, OneBarrierCallAPassAndNoAllocation) {
          {"vkCmdPipelineBarrier", reinterpret_cast<PFN_vkVoidFunction>(&count_barriers)}}));
     const TwoImages two;
     Executor executor(device, two.graph, two.baked());
-    const auto buffers = set_buffers(device, two.graph, executor);
+    const Buffers buffers = buffers_for(device, two.graph);
     gpu::Timestamps timestamps(device, 4);
     std::size_t expected = executor.baked().to_host.size();
     for (const BakedPass& pass : executor.baked().passes) {
@@ -272,7 +275,7 @@ TEST_F(GraphExecute, OneBarrierCallAPassAndNoAllocation) {
     barriers_recorded = 0;
     memory_barriers_recorded = 0;
     const std::uint64_t before = test_support::allocation_count();
-    executor.execute(two.graph, VK_NULL_HANDLE, timestamps, no_commands);
+    executor.execute(two.graph, buffers.imported, VK_NULL_HANDLE, timestamps, no_commands);
     EXPECT_EQ(test_support::allocation_count(), before);
     EXPECT_EQ(barrier_calls, 5U);  // four passes and the host
     EXPECT_EQ(barriers_recorded, expected);
@@ -365,16 +368,17 @@ TEST_F(GraphExecute, ExternalUsesTakeThePlaceOfTheDeclaredOnesForOneExecution) {
               writes(buffer, Access::storage_write_in_compute)});
     Executor executor(device, graph, *bake(graph));
     gpu::Timestamps timestamps(device, 4);
+    std::array<Imported, 2> imported;
     const auto execute = [&] {
         recorded_count = 0;
-        executor.execute(graph, VK_NULL_HANDLE, timestamps, no_commands);
+        executor.execute(graph, imported, VK_NULL_HANDLE, timestamps, no_commands);
         EXPECT_EQ(recorded_count, 2U);
     };
 
     const ImportedImage own_image{handle_of<VkImage>(1)};
     const ImportedBuffer own_buffer{handle_of<VkBuffer>(2)};
-    executor.set_image(image, own_image);
-    executor.set_buffer(buffer, own_buffer);
+    imported[image.resource].image = own_image;
+    imported[buffer.resource].buffer = own_buffer;
     execute();
     const std::array<RecordedCall, 4> declared = recorded_calls;
     EXPECT_EQ(declared[0].images[0].oldLayout, VK_IMAGE_LAYOUT_UNDEFINED);
@@ -389,14 +393,14 @@ TEST_F(GraphExecute, ExternalUsesTakeThePlaceOfTheDeclaredOnesForOneExecution) {
     ImportedBuffer hosts_buffer{handle_of<VkBuffer>(4), 256, 512};
     hosts_buffer.uses = ExternalUses{};  // nothing to wait for, and nothing that waits
     const std::uint64_t before = test_support::allocation_count();
-    executor.set_image(image, hosts_image);
-    executor.set_buffer(buffer, hosts_buffer);
+    imported[image.resource].image = hosts_image;
+    imported[buffer.resource].buffer = hosts_buffer;
     execute();
     EXPECT_EQ(test_support::allocation_count(), before);
     expect_stated(recorded_calls[0], recorded_calls[1], hosts_image, hosts_buffer);
 
-    executor.set_image(image, own_image);
-    executor.set_buffer(buffer, own_buffer);
+    imported[image.resource].image = own_image;
+    imported[buffer.resource].buffer = own_buffer;
     execute();
     expect_same(recorded_calls[0], declared[0]);
     expect_same(recorded_calls[1], declared[1]);
