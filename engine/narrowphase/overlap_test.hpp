@@ -21,6 +21,9 @@ public:
     /// unspecified.
     [[nodiscard]] bool boundaries_meet(const simd::TransformedEdges& a,
                                        const simd::TransformedEdges& b, simd::EdgePair& edges);
+    /// A point of two complete shapes that are known to share one, up to rounding.
+    [[nodiscard]] geometry::Vector common_point(const simd::TransformedEdges& a,
+                                                const simd::TransformedEdges& b);
 
 private:
     CandidateEdgePairs pairs_;

@@ -1,6 +1,5 @@
 #include <engine/base/interruption.hpp>
 #include <engine/plan/placed_pair.hpp>
-#include <engine/records/nearest_feature.hpp>
 #include <engine/solvers/closest_points.hpp>
 
 #include <algorithm>
@@ -10,8 +9,6 @@
 namespace nearfield::solvers {
 namespace {
 
-using geometry::TransformedPolygon;
-using geometry::Vector;
 using plan::CheckedQuery;
 using simd::TransformedEdges;
 
@@ -21,23 +18,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 narrowphase::Side side_of(const CheckedQuery& query) {
     return std::holds_alternative<SeparationQuery>(*query.query) ? narrowphase::Side::either
                                                                  : narrowphase::Side::a;
-}
-
-void write_common_point(const Vector& point, SeparationResult& result) {
-    result.point_a = result.point_b = geometry::to_public(point);
-}
-
-/// Writes a SeparationResult for separate shapes, except its summary, the number of such pairs and
-/// the rendered samples.
-void write_pair(const TransformedPolygon& a, const TransformedPolygon& b,
-                const narrowphase::ClosestPair& pair, SeparationResult& result) {
-    result.distance = std::sqrt(pair.squared_distance);
-    result.point_a = geometry::to_public(pair.point_a);
-    result.point_b = geometry::to_public(pair.point_b);
-    result.direction = geometry::to_public((pair.point_b - pair.point_a) / result.distance);
-    result.feature_a = records::feature_at(a, pair.edge_a, pair.parameter_a);
-    result.feature_b = records::feature_at(b, pair.edge_b, pair.parameter_b);
-    result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.distance;
 }
 
 }  // namespace
@@ -51,7 +31,9 @@ void ClosestSolver::answer_apart(const CheckedQuery& query, const simd::Transfor
     const double margin =
         result.tolerance < extent ? result.tolerance * plan::uniqueness_margin : 0.0;
     const narrowphase::ClosestPair closest = finder_.find(a, b, at_most, margin);
-    write_pair(a.placed, b.placed, closest, result);
+    result.distance = std::sqrt(closest.squared_distance);
+    result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.distance;
+    write_closest(a.placed, b.placed, closest, result.distance, result);
     result.unique = finder_.is_unique(closest, side_of(query), margin, result.tolerance);
 }
 
@@ -75,7 +57,7 @@ void ClosestSolver::answer(const CheckedQuery& query, const TransformedEdges& a,
     result.error_bound = a.rounding + b.rounding + query.deviations.a + query.deviations.b;
     result.intersects = known.intersect;
     if (known.intersect) {
-        write_common_point(common_point_.find(a, b), result);
+        result.point_a = result.point_b = geometry::to_public(overlap_test_.common_point(a, b));
     } else {
         answer_apart(query, a, b, known.at_most, result);
         result.sampled_distance = known.at_most < infinity ? known.at_most : result.distance;

@@ -2,7 +2,7 @@
 
 #include <engine/narrowphase/closest_pair.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/solvers/common_point.hpp>
+#include <engine/records/nearest_feature.hpp>
 #include <engine/solvers/workspace.hpp>
 #include <nearfield/result.hpp>
 
@@ -30,8 +30,21 @@ private:
 
     narrowphase::ClosestPairFinder finder_;
     narrowphase::OverlapTest overlap_test_;
-    CommonPoint common_point_;
 };
+
+/// Writes the closest points of two shapes, the direction between them and the features that they
+/// are on.
+template <class Result>
+void write_closest(const geometry::TransformedPolygon& a, const geometry::TransformedPolygon& b,
+                   const narrowphase::ClosestPair& pair, double distance, Result& result) {
+    result.point_a = geometry::to_public(pair.point_a);
+    result.point_b = geometry::to_public(pair.point_b);
+    if (distance > 0.0) {
+        result.direction = geometry::to_public((pair.point_b - pair.point_a) / distance);
+    }
+    result.feature_a = records::feature_at(a, pair.edge_a, pair.parameter_a);
+    result.feature_b = records::feature_at(b, pair.edge_b, pair.parameter_b);
+}
 
 /// A's side of a separation: its closest point to B.
 void take_closest_point(SeparationResult&& separation, ClosestPointResult& result);

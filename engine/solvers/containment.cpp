@@ -1,6 +1,6 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/plan/placed_pair.hpp>
-#include <engine/records/nearest_feature.hpp>
+#include <engine/solvers/closest_points.hpp>
 #include <engine/solvers/containment.hpp>
 
 #include <cmath>
@@ -24,11 +24,7 @@ void ContainmentSolver::write_clearance(const TransformedEdges& a, const Transfo
     const narrowphase::ClosestPair pair =
         finder_.find(a, b, std::numeric_limits<double>::infinity(), rounding);
     result.clearance = std::sqrt(pair.squared_distance);
-    result.point_a = geometry::to_public(pair.point_a);
-    result.point_b = geometry::to_public(pair.point_b);
-    result.direction = geometry::to_public((pair.point_b - pair.point_a) / result.clearance);
-    result.feature_a = records::feature_at(a.placed, pair.edge_a, pair.parameter_a);
-    result.feature_b = records::feature_at(b.placed, pair.edge_b, pair.parameter_b);
+    write_closest(a.placed, b.placed, pair, result.clearance, result);
     result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.clearance;
     result.unique = finder_.is_unique(pair, narrowphase::Side::either, rounding, rounding);
 }

@@ -1,5 +1,5 @@
 #include <engine/plan/check_query.hpp>
-#include <engine/records/nearest_feature.hpp>
+#include <engine/solvers/closest_points.hpp>
 #include <engine/solvers/time_of_impact.hpp>
 
 #include <algorithm>
@@ -21,21 +21,6 @@ ImpactState state_of(toi::Impact::Kind kind) {
             break;
     }
     return ImpactState::bound_not_reached;
-}
-
-void write_closest(const plan::CheckedQuery& query, const narrowphase::ClosestPair& closest,
-                   TimeOfImpactResult& result) {
-    const geometry::TransformedPolygon a(*query.a, result.pose_a);
-    const geometry::TransformedPolygon b(*query.b, result.pose_b);
-    result.distance = std::sqrt(closest.squared_distance);
-    result.point_a = geometry::to_public(closest.point_a);
-    result.point_b = geometry::to_public(closest.point_b);
-    if (result.distance > 0.0) {
-        result.direction =
-            geometry::to_public((closest.point_b - closest.point_a) / result.distance);
-    }
-    result.feature_a = records::feature_at(a, closest.edge_a, closest.parameter_a);
-    result.feature_b = records::feature_at(b, closest.edge_b, closest.parameter_b);
 }
 
 }  // namespace
@@ -67,13 +52,15 @@ void TimeOfImpactSolver::answer(const plan::CheckedQuery& query, Workspace& /*wo
     result.steps = contact.steps;
     if (contact.share_a_point_at_start) {
         result.point_a = result.point_b = geometry::to_public(
-            common_point_.find(finder_.transformed_a(), finder_.transformed_b()));
+            overlap_test_.common_point(finder_.transformed_a(), finder_.transformed_b()));
         return;
     }
     // Rounded up: differences and sums with the time are rounded.
     result.time_error_bound =
         contact.latest > contact.time ? std::nextafter(contact.latest - contact.time, 2.0) : 0.0;
-    write_closest(query, contact.closest, result);
+    result.distance = std::sqrt(contact.closest.squared_distance);
+    write_closest({*query.a, result.pose_a}, {*query.b, result.pose_b}, contact.closest,
+                  result.distance, result);
 }
 
 }  // namespace nearfield::solvers

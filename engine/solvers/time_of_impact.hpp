@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/solvers/common_point.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
 #include <engine/solvers/workspace.hpp>
 #include <engine/toi/conservative_advancement.hpp>
 #include <nearfield/result.hpp>
@@ -14,7 +14,7 @@ public:
 
 private:
     toi::ConservativeAdvancement finder_;
-    CommonPoint common_point_;
+    narrowphase::OverlapTest overlap_test_;
 };
 
 }  // namespace nearfield::solvers
