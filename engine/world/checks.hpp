@@ -48,6 +48,13 @@ void require_answered(const char* call, const Query& query,
     }
 }
 
+/// Refuses Technique::compute where this context does without it, for questions that have no other
+/// number and that it answers in no batch.
+inline void require_answered_by_compute(const char* call, const Context::Implementation& context) {
+    require_answered(call, PenetrationQuery{.tolerance = 1.0, .technique = Technique::compute},
+                     context);
+}
+
 inline void require_lengths(const char* call, const char* what, std::size_t in, std::size_t out) {
     if (in != out) {
         refuse(call, "there are " + std::to_string(in) + " " + what + " and space for " +

@@ -50,10 +50,7 @@ void DevicePairs::check(const char* call) const {
         [&]<class Query>(Query asked) {
             asked.technique = Technique::compute;
             if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
-                // Its only number is the technique, which answers no such query of a batch.
-                require_answered(call,
-                                 PenetrationQuery{.tolerance = 1.0, .technique = asked.technique},
-                                 *context_);
+                require_answered_by_compute(call, *context_);
             } else {
                 require_answered(call, asked, *context_);
             }
@@ -173,10 +170,7 @@ void DevicePairs::start(const char* call, Context::Implementation& with, const P
     rows_ = 0;
     decided_.clear();
     dropped_rows_.clear();
-    timings_.plan = timings_.record = timings_.device = timings_.decode = 0.0;
-    for (PassTime& pass : timings_.passes) {
-        pass.milliseconds = 0.0;
-    }
+    clear_parts(timings_);
     render::Renderer& renderer = *context_->renderer();
     const double made = renderer.pipeline_milliseconds();
     if (buffers_ == nullptr || renderer_ != renderer.number()) {

@@ -250,9 +250,8 @@ static void require_for_device(const char* call, const AnyQuery& query,
 }  // namespace table
 
 template <class Action>
-void PairTableBase::State::run_or_start_anew(Context::Implementation& context,
-                                             const Action& action) {
-    const Status status = context.unless_lost(action);
+void PairTableBase::State::run_or_start_anew(const Action& action) {
+    const Status status = context_->unless_lost(action);
     if (!status.ok()) {
         start_anew();
         throw StatusException(status);
@@ -346,34 +345,20 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
     timings.decode = timings.total - timings.plan - timings.device;
 }
 
+void PairTableBase::State::start(const char* call, const WorldView& world,
+                                 const PairTableInput& input, const Recording* recording) {
+    require_collected(call);
+    context_ = &world.context;
+    run_or_start_anew([&] { begin(call, world, input, recording); });
+}
+
 void PairTableBase::State::finish() {
-    if (device_ != nullptr) {
-        device_->finish();
-    }
-    is_submitted_ = false;
-}
-
-void PairTableBase::State::update(const WorldView& world, const PairTableInput& input) {
-    require_collected("update");
-    context_ = &world.context;
-    run_or_start_anew(world.context, [&] {
-        begin("update", world, input, nullptr);
-        finish();
+    run_or_start_anew([&] {
+        if (device_ != nullptr) {
+            device_->finish();
+        }
+        is_submitted_ = false;
     });
-}
-
-void PairTableBase::State::submit(const WorldView& world, const PairTableInput& input) {
-    require_collected("submit");
-    context_ = &world.context;
-    run_or_start_anew(world.context, [&] { begin("submit", world, input, nullptr); });
-}
-
-void PairTableBase::State::record(const WorldView& world, const PairTableInput& input,
-                                  const Recording& recording) {
-    world.context.ring().begin_frame(recording);
-    require_collected("record");
-    context_ = &world.context;
-    run_or_start_anew(world.context, [&] { begin("record", world, input, &recording); });
 }
 
 void PairTableBase::State::collect() {
@@ -388,39 +373,8 @@ void PairTableBase::State::collect() {
     if (is_for_frame) {
         device_->collect_recorded();
     } else {
-        run_or_start_anew(*context_, [&] { finish(); });
+        finish();
     }
-}
-
-bool PairTableBase::State::is_recorded(const WorldView& world) const {
-    return device_ != nullptr &&
-           device_->is_recorded(world.context, {world.identity, world.instances});
-}
-
-bool PairTableBase::State::is_ready() const {
-    return device_ != nullptr ? device_->is_ready() : is_submitted_;
-}
-
-PairsOnDevice PairTableBase::State::on_device() const {
-    if (!table::is_on_device(query)) {
-        refuse("on_device", "the table's query does without results that stay on the device");
-    }
-    if (device_ == nullptr) {
-        throw StatusException({StatusCode::not_ready, "on_device: the table was not submitted"});
-    }
-    return device_->on_device();
-}
-
-std::uint32_t PairTableBase::State::size() const {
-    return device_ != nullptr ? device_->size() : is_submitted_ ? 0 : row_count_;
-}
-
-std::uint32_t PairTableBase::State::candidates() const {
-    return device_ != nullptr ? device_->candidates() : is_submitted_ ? 0 : candidate_count_;
-}
-
-std::uint32_t PairTableBase::State::left_to_cpu() const {
-    return device_ != nullptr ? device_->left_to_cpu() : is_submitted_ ? 0 : answer_count_;
 }
 
 PairTableBase::PairTableBase(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -437,11 +391,11 @@ std::uint32_t PairTableBase::size() const noexcept {
 }
 
 std::uint32_t PairTableBase::candidates() const noexcept {
-    return state_->candidates();
+    return state_->count(&DevicePairs::candidates, state_->candidate_count_);
 }
 
 std::uint32_t PairTableBase::left_to_cpu() const noexcept {
-    return state_->left_to_cpu();
+    return state_->count(&DevicePairs::left_to_cpu, state_->answer_count_);
 }
 
 const Timings& PairTableBase::timings() const noexcept {
@@ -453,13 +407,20 @@ Status PairTableBase::collect(const Limits& limits) {
 }
 
 bool PairTableBase::is_ready() const noexcept {
-    return state_->is_ready();
+    return state_->device_ != nullptr ? state_->device_->is_ready() : state_->is_submitted_;
 }
 
 Expected<PairsOnDevice> PairTableBase::on_device() const {
-    PairsOnDevice pairs;
-    Status status = catch_to_status([&] { pairs = state_->on_device(); });
-    return status.ok() ? Expected<PairsOnDevice>(pairs) : status;
+    return catch_to_expected([&] {
+        if (!table::is_on_device(state_->query)) {
+            refuse("on_device", "the table's query does without results that stay on the device");
+        }
+        if (state_->device_ == nullptr) {
+            throw StatusException(
+                {StatusCode::not_ready, "on_device: the table was not submitted"});
+        }
+        return state_->device_->on_device();
+    });
 }
 
 const Status& PairTableBase::read_status() const noexcept {
@@ -804,9 +765,7 @@ std::span<const PairRow<Query>> PairTable<Query>::rows() noexcept {
 
 template <class Query>
 Expected<PairRow<Query>> PairTable<Query>::row(std::uint32_t index) {
-    PairRow<Query> row;
-    Status status = catch_to_status([&] { row = state().row(index); });
-    return status.ok() ? Expected<PairRow<Query>>(row) : status;
+    return catch_to_expected([&] { return state().row(index); });
 }
 
 template <class Query>
@@ -832,20 +791,29 @@ template class PairTable<ContainmentQuery>;
 template class PairTable<TimeOfImpactQuery>;
 
 Status World::update(PairTableBase& table, const PairTableInput& input, const Limits& limits) {
-    return catch_within(limits, [&] { table.state_->update(state_->view(), input); });
+    return catch_within(limits, [&] {
+        table.state_->start("update", state_->view(), input, nullptr);
+        table.state_->finish();
+    });
 }
 
 Status World::submit(PairTableBase& table, const PairTableInput& input, const Limits& limits) {
-    return catch_within(limits, [&] { table.state_->submit(state_->view(), input); });
+    return catch_within(limits,
+                        [&] { table.state_->start("submit", state_->view(), input, nullptr); });
 }
 
 Status World::record(PairTableBase& table, const Recording& recording, const PairTableInput& input,
                      const Limits& limits) {
-    return catch_within(limits, [&] { table.state_->record(state_->view(), input, recording); });
+    return catch_within(limits, [&] {
+        state_->context->ring().begin_frame(recording);
+        table.state_->start("record", state_->view(), input, &recording);
+    });
 }
 
 bool World::is_recorded(const PairTableBase& table) const noexcept {
-    return table.state_->is_recorded(state_->view());
+    const DevicePairs* const device = table.state_->device_.get();
+    return device != nullptr &&
+           device->is_recorded(*state_->context, {state_->identity, state_->instances});
 }
 
 }  // namespace nearfield

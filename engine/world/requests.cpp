@@ -1,6 +1,5 @@
 // What requests of all kinds have in common.
 
-#include <engine/plan/check_query.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <engine/world/requests.hpp>
@@ -101,18 +100,6 @@ bool WorldRequest::State::pays_on_device(const World::State& world, std::size_t 
            questions >= paying_questions;
 }
 
-void WorldRequest::State::check(const char* call) const {
-    const DeviceTechniques& techniques = context_->techniques();
-    const Status status =
-        plan::check_query(PenetrationQuery{.tolerance = 1.0, .technique = Technique::compute},
-                          {.device = context_->device() != nullptr,
-                           .raster = techniques.raster,
-                           .compute = techniques.compute});
-    if (!status.ok()) {
-        throw StatusException({status.code(), std::string(call) + ": " + status.message()});
-    }
-}
-
 void WorldRequest::State::start(const char* call, Context::Implementation& with,
                                 const WorldOnDevice& world, const WorldFilter& filter,
                                 std::size_t questions) {
@@ -122,13 +109,10 @@ void WorldRequest::State::start(const char* call, Context::Implementation& with,
         world_ = world.identity;
         jobs_.emplace(with.jobs());
     }
-    check(call);
+    require_answered_by_compute(call, with);
     require_countable(call, questions);
     left_to_cpu = 0;
-    timings.plan = timings.record = timings.device = timings.decode = 0.0;
-    for (PassTime& pass : timings.passes) {
-        pass.milliseconds = 0.0;
-    }
+    clear_parts(timings);
     render::Renderer& renderer = *context_->renderer();
     const double made = renderer.pipeline_milliseconds();
     if (buffers_ == nullptr || renderer_ != renderer.number()) {
@@ -137,12 +121,11 @@ void WorldRequest::State::start(const char* call, Context::Implementation& with,
         instances_.forget_places();
     }
     making_pipelines_ = renderer.pipeline_milliseconds() - made;
-    if (!instances_.are_those_of(with.shapes(), world.instances)) {
+    const bool are_others = !instances_.are_those_of(with.shapes(), world.instances);
+    instances_.update(call, with.shapes(), world.instances, {}, buffers_->world());
+    if (are_others) {
         for_cpu_.reset();
-        instances_.update(call, with.shapes(), world.instances, {}, buffers_->world());
         placed_.reset(instances_.size());
-    } else {
-        instances_.update(call, with.shapes(), world.instances, {}, buffers_->world());
     }
     count = static_cast<std::uint32_t>(questions);
     filter_ = filter;

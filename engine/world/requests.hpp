@@ -123,8 +123,6 @@ protected:
     bool is_answered_ = false;  // by the CPU, and not collected
 
 private:
-    void check(const char* call) const;
-
     // Boxes and places are those of an intersection test, which has no tolerance either.
     const AnyQuery query_;
     const plan::PairQuestion pair_question_;
