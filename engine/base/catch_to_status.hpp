@@ -5,6 +5,8 @@
 
 #include <exception>
 #include <new>
+#include <optional>
+#include <utility>
 
 namespace nearfield {
 
@@ -26,6 +28,17 @@ Status catch_to_status(Action&& action) noexcept {
     } catch (...) {
         return Status(StatusCode::out_of_memory);
     }
+}
+
+/// Returns what an action does, or the error that it throws, as catch_to_status().
+template <class Action>
+auto catch_to_expected(Action&& action) noexcept -> Expected<decltype(action())> {
+    std::optional<decltype(action())> value;
+    Status status = catch_to_status([&] { value.emplace(action()); });
+    if (!status.ok()) {
+        return status;
+    }
+    return std::move(*value);
 }
 
 }  // namespace nearfield

@@ -6,7 +6,6 @@
 
 #include <limits>
 #include <optional>
-#include <utility>
 
 namespace nearfield {
 
@@ -30,17 +29,6 @@ auto call_within(const Limits& limits, const Action& action) -> decltype(action(
     }
     const InterruptionScope scope(&*interruption);
     return action();
-}
-
-/// Returns what an action does, or the error that it throws, as catch_to_status().
-template <class Action>
-auto catch_to_expected(Action&& action) noexcept -> Expected<decltype(action())> {
-    std::optional<decltype(action())> value;
-    Status status = catch_to_status([&] { value.emplace(action()); });
-    if (!status.ok()) {
-        return status;
-    }
-    return std::move(*value);
 }
 
 /// As call_within(), for an action that throws, as catch_to_status().

@@ -1,4 +1,4 @@
-#include <engine/context/call_within.hpp>
+#include <engine/base/catch_to_status.hpp>
 #include <engine/context/implementation.hpp>
 #include <nearfield/diagnostics.hpp>
 

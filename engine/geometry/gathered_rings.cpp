@@ -1,5 +1,5 @@
-#include <engine/base/status_exception.hpp>
 #include <engine/geometry/gathered_rings.hpp>
+#include <engine/geometry/ring_check.hpp>
 
 #include <cstddef>
 #include <string>
@@ -13,8 +13,7 @@ std::size_t vertex_count(const RingView& view) {
 
 void require_pairs(std::size_t ring, const RingView& view) {
     const auto refuse = [ring](const std::string& why) {
-        throw StatusException(
-            {StatusCode::invalid_shape, "ring " + std::to_string(ring) + ": " + why});
+        refuse_shape("ring " + std::to_string(ring) + ": " + why);
     };
     if (view.stride() < 2) {
         refuse("its stride is " + std::to_string(view.stride()) +

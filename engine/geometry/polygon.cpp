@@ -20,13 +20,6 @@ std::string ring_name(std::size_t ring) {
     return "ring " + std::to_string(ring);
 }
 
-/// The vertices of a ring without a closing vertex that repeats the first.
-std::span<const Vector2> open_ring(const Ring& ring) {
-    const std::span<const Vector2> vertices(ring);
-    const bool closed_twice = vertices.size() > 1 && vertices.front() == vertices.back();
-    return closed_twice ? vertices.first(vertices.size() - 1) : vertices;
-}
-
 /// The bounding box and size of a ring.
 struct Range {
     Box box;
@@ -51,21 +44,6 @@ struct Range {
 Status bad_coordinates(std::size_t ring, std::span<const Vector2> vertices) {
     const auto bad = std::find_if_not(vertices.begin(), vertices.end(), usable);
     return invalid(vertex_error(ring, static_cast<std::size_t>(bad - vertices.begin()), *bad));
-}
-
-bool has_three_different(std::span<const Vector2> vertices) {
-    if (vertices.empty()) {
-        return false;
-    }
-    const Vector2 first = vertices.front();
-    const auto second = std::find_if(vertices.begin(), vertices.end(),
-                                     [&](const Vector2& v) { return v != first; });
-    return std::any_of(second, vertices.end(),
-                       [&](const Vector2& v) { return v != first && v != *second; });
-}
-
-double largest_of(const Vector2& v) {
-    return std::max(std::abs(v.x), std::abs(v.y));
 }
 
 /// True if three of the vertices alone show that the ring is not within `rounding`, as a fraction

@@ -38,6 +38,10 @@ double width_along(const Vector& start, const Vector& end, std::span<const Vecto
 
 }  // namespace
 
+void refuse_shape(const std::string& message) {
+    throw StatusException({StatusCode::invalid_shape, message});
+}
+
 std::string coordinate_error(double value) {
     if (std::isnan(value)) {
         return "is not a number";
@@ -68,16 +72,33 @@ void require_usable(std::span<const Ring> rings) {
         const auto bad = std::find_if_not(rings[ring].begin(), rings[ring].end(), usable);
         if (bad != rings[ring].end()) {
             const auto vertex = static_cast<std::size_t>(bad - rings[ring].begin());
-            throw StatusException({StatusCode::invalid_shape, vertex_error(ring, vertex, *bad)});
+            refuse_shape(vertex_error(ring, vertex, *bad));
         }
     }
+}
+
+std::span<const Vector2> open_ring(const Ring& ring) {
+    const std::span<const Vector2> vertices(ring);
+    const bool closed_twice = vertices.size() > 1 && vertices.front() == vertices.back();
+    return closed_twice ? vertices.first(vertices.size() - 1) : vertices;
+}
+
+bool has_three_different(std::span<const Vector2> vertices) {
+    const auto second = std::find_if(vertices.begin(), vertices.end(),
+                                     [&](const Vector2& v) { return v != vertices.front(); });
+    return std::any_of(second, vertices.end(),
+                       [&](const Vector2& v) { return v != vertices.front() && v != *second; });
+}
+
+double largest_of(const Vector2& vertex) {
+    return std::max(std::abs(vertex.x), std::abs(vertex.y));
 }
 
 double largest_coordinate_of(std::span<const Ring> rings) {
     double largest = 0.0;
     for (const Ring& ring : rings) {
         for (const Vector2& vertex : ring) {
-            largest = std::max({largest, std::abs(vertex.x), std::abs(vertex.y)});
+            largest = std::max(largest, largest_of(vertex));
         }
     }
     return largest;

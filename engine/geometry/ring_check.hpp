@@ -8,6 +8,9 @@
 
 namespace nearfield::geometry {
 
+/// Throws StatusException with invalid_shape.
+[[noreturn]] void refuse_shape(const std::string& message);
+
 /// Why a coordinate cannot be used; empty if it can: it is finite and at most `largest_coordinate`.
 [[nodiscard]] std::string coordinate_error(double value);
 
@@ -20,7 +23,12 @@ namespace nearfield::geometry {
 /// Throws StatusException with invalid_shape that names the first vertex that is not usable.
 void require_usable(std::span<const Ring> rings);
 
+/// The vertices of a ring without a closing vertex that repeats the first.
+[[nodiscard]] std::span<const Vector2> open_ring(const Ring& ring);
+[[nodiscard]] bool has_three_different(std::span<const Vector2> vertices);
+
 /// The largest magnitude of a coordinate.
+[[nodiscard]] double largest_of(const Vector2& vertex);
 [[nodiscard]] double largest_coordinate_of(std::span<const Ring> rings);
 
 /// The least width of a ring that is told from none: 2^-47 of its largest coordinate. A shape

@@ -31,8 +31,8 @@ std::string driver_text(const VkPhysicalDeviceProperties& properties) {
 }  // namespace
 
 Expected<std::vector<DeviceReport>> list_devices() {
-    std::vector<DeviceReport> reports;
-    Status status = catch_to_status([&] {
+    return catch_to_expected([] {
+        std::vector<DeviceReport> reports;
         const gpu::Instance instance;
         for (gpu::Candidate& candidate : instance.candidates()) {
             DeviceReport& report = reports.emplace_back();
@@ -47,11 +47,8 @@ Expected<std::vector<DeviceReport>> list_devices() {
                     {strategy, gpu::missing_for(strategy, candidate.support)});
             }
         }
+        return reports;
     });
-    if (!status.ok()) {
-        return status;
-    }
-    return reports;
 }
 
 }  // namespace nearfield

@@ -1,8 +1,7 @@
-#include <engine/base/status_exception.hpp>
+#include <engine/base/catch_to_status.hpp>
 #include <engine/gpu/requirements.hpp>
 
 #include <cstring>
-#include <exception>
 
 namespace nearfield {
 namespace {
@@ -28,7 +27,7 @@ const OptionalPart* Requirements::find(const char* name) const noexcept {
 }
 
 Expected<Requirements> requirements(const PhysicalDevice& device) {
-    try {
+    return catch_to_expected([&] {
         refuse_null(device.instance != VK_NULL_HANDLE, "instance");
         refuse_null(device.physical_device != VK_NULL_HANDLE, "physical_device");
         refuse_null(device.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
@@ -37,12 +36,7 @@ Expected<Requirements> requirements(const PhysicalDevice& device) {
         gpu::survey_base(device, found);
         gpu::survey_optional_parts(device, found);
         return found;
-    } catch (const StatusException& failure) {
-        return failure.status();
-    } catch (const std::exception& error) {
-        return Status(StatusCode::out_of_memory,
-                      std::string("requirements could not be listed: ") + error.what());
-    }
+    });
 }
 
 }  // namespace nearfield

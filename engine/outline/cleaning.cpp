@@ -1,4 +1,4 @@
-#include <engine/base/status_exception.hpp>
+#include <engine/base/catch_to_status.hpp>
 #include <engine/geometry/number.hpp>
 #include <engine/geometry/ring_check.hpp>
 #include <engine/geometry/vector.hpp>
@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <new>
 #include <utility>
 
 namespace nearfield {
@@ -128,27 +127,13 @@ private:
     double deviation_ = 0.0;
 };
 
-/// The vertices of a ring without a closing vertex that repeats the first.
-std::span<const Vector2> open_ring(const Ring& ring) {
-    const std::span<const Vector2> vertices(ring);
-    const bool closed_twice = vertices.size() > 1 && vertices.front() == vertices.back();
-    return closed_twice ? vertices.first(vertices.size() - 1) : vertices;
-}
-
-bool has_three_different(std::span<const Vector2> vertices) {
-    const auto second = std::find_if(vertices.begin(), vertices.end(),
-                                     [&](const Vector2& v) { return v != vertices.front(); });
-    return std::any_of(second, vertices.end(),
-                       [&](const Vector2& v) { return v != vertices.front() && v != *second; });
-}
-
 class RingCleaner {
 public:
     explicit RingCleaner(const Cleaning& cleaning) : cleaning_(cleaning) {}
 
     void add(std::size_t index, const Ring& ring) {
-        const std::span<const Vector2> vertices = open_ring(ring);
-        if (!has_three_different(vertices)) {
+        const std::span<const Vector2> vertices = geometry::open_ring(ring);
+        if (!geometry::has_three_different(vertices)) {
             drop(index, ring, 0.0, 0.0);
             return;
         }
@@ -173,7 +158,7 @@ private:
         VertexCleaner cleaner(vertices, width_, counts);
         Ring cleaned = cleaner.run();
         const double width_left = geometry::strip_width(cleaned);
-        if (!has_three_different(cleaned) || width_left <= width_) {
+        if (!geometry::has_three_different(cleaned) || width_left <= width_) {
             drop(index, ring, width, cleaner.deviation() + 0.5 * width_left);
             return;
         }
@@ -197,10 +182,9 @@ private:
 
 CleanedRings cleaned(std::span<const Ring> rings, const Cleaning& cleaning) {
     if (!(cleaning.width >= 0.0 && cleaning.width <= largest_coordinate)) {
-        throw StatusException(
-            {StatusCode::invalid_shape, "the width is " + geometry::number(cleaning.width) +
-                                            "; it must be a number of at least 0 and at most " +
-                                            geometry::number(largest_coordinate)});
+        geometry::refuse_shape("the width is " + geometry::number(cleaning.width) +
+                               "; it must be a number of at least 0 and at most " +
+                               geometry::number(largest_coordinate));
     }
     geometry::require_usable(rings);
     RingCleaner cleaner(cleaning);
@@ -213,13 +197,7 @@ CleanedRings cleaned(std::span<const Ring> rings, const Cleaning& cleaning) {
 }  // namespace
 
 Expected<CleanedRings> clean(std::span<const Ring> rings, const Cleaning& cleaning) {
-    try {
-        return cleaned(rings, cleaning);
-    } catch (const StatusException& failure) {
-        return failure.status();
-    } catch (const std::bad_alloc&) {
-        return Status(StatusCode::out_of_memory, "the host has no memory left");
-    }
+    return catch_to_expected([&] { return cleaned(rings, cleaning); });
 }
 
 }  // namespace nearfield

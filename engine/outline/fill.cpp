@@ -1,4 +1,4 @@
-#include <engine/base/status_exception.hpp>
+#include <engine/base/catch_to_status.hpp>
 #include <engine/geometry/number.hpp>
 #include <engine/geometry/ring_check.hpp>
 #include <engine/geometry/vector.hpp>
@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -24,10 +23,6 @@ using outline::SnapRounding;
 
 /// Half the diagonal of a cell of side 1, rounded up: how far a point moves.
 constexpr double half_diagonal = 0.7072;
-
-[[noreturn]] void refuse_rings(const std::string& message) {
-    throw StatusException({StatusCode::invalid_shape, message});
-}
 
 /// The grid that rings are rounded to.
 struct Grid {
@@ -57,8 +52,9 @@ double extent_of(std::span<const Ring> rings) {
 Grid choose_grid(std::span<const Ring> rings, double deviation) {
     const double extent = extent_of(rings);
     if (extent < smallest_extent) {
-        refuse_rings("the rings span " + geometry::number(extent) +
-                     " along their longer side; the least is " + geometry::number(smallest_extent));
+        geometry::refuse_shape("the rings span " + geometry::number(extent) +
+                               " along their longer side; the least is " +
+                               geometry::number(smallest_extent));
     }
     const double magnitude = geometry::largest_coordinate_of(rings);
     Grid grid{power_of_two_from(std::max(0x1p-42 * extent, 0x1p-48 * magnitude)),
@@ -67,13 +63,14 @@ Grid choose_grid(std::span<const Ring> rings, double deviation) {
         return grid;
     }
     if (!(deviation > 0.0 && deviation <= largest_coordinate)) {
-        refuse_rings("the deviation is " + geometry::number(deviation) +
-                     "; it must be 0 or a number above 0 and at most " +
-                     geometry::number(largest_coordinate));
+        geometry::refuse_shape("the deviation is " + geometry::number(deviation) +
+                               "; it must be 0 or a number above 0 and at most " +
+                               geometry::number(largest_coordinate));
     }
     if (deviation < grid.deviation()) {
-        refuse_rings("the deviation " + geometry::number(deviation) +
-                     " is below that of the finest grid, " + geometry::number(grid.deviation()));
+        geometry::refuse_shape("the deviation " + geometry::number(deviation) +
+                               " is below that of the finest grid, " +
+                               geometry::number(grid.deviation()));
     }
     while (half_diagonal * 2.0 * grid.side + 0.5 * grid.thinnest <= deviation) {
         grid.side *= 2.0;
@@ -166,8 +163,8 @@ std::vector<std::uint32_t> parts_of(std::size_t rings, std::span<const std::uint
     }
     const std::uint64_t total = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
     if (total != rings) {
-        refuse_rings("the parts have " + std::to_string(total) + " rings together; there are " +
-                     std::to_string(rings));
+        geometry::refuse_shape("the parts have " + std::to_string(total) +
+                               " rings together; there are " + std::to_string(rings));
     }
     return parts;
 }
@@ -207,7 +204,8 @@ Ring in_units(std::span<const Cell> cells, double side) {
 
 ResolvedFill resolve(std::span<const Ring> rings, FillRule rule, const FillSettings& settings) {
     if (rule > FillRule::union_of_parts) {
-        refuse_rings("the fill rule " + std::to_string(static_cast<int>(rule)) + " does not exist");
+        geometry::refuse_shape("the fill rule " + std::to_string(static_cast<int>(rule)) +
+                               " does not exist");
     }
     std::vector<std::uint32_t> parts;
     if (rule == FillRule::union_of_parts) {
@@ -236,13 +234,7 @@ ResolvedFill resolve(std::span<const Ring> rings, FillRule rule, const FillSetti
 
 Expected<ResolvedFill> resolve_fill(std::span<const Ring> rings, FillRule rule,
                                     const FillSettings& settings) {
-    try {
-        return resolve(rings, rule, settings);
-    } catch (const StatusException& failure) {
-        return failure.status();
-    } catch (const std::bad_alloc&) {
-        return Status(StatusCode::out_of_memory, "the host has no memory left");
-    }
+    return catch_to_expected([&] { return resolve(rings, rule, settings); });
 }
 
 }  // namespace nearfield

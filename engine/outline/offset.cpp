@@ -1,22 +1,19 @@
+#include <engine/base/catch_to_status.hpp>
 #include <engine/base/status_exception.hpp>
 #include <engine/geometry/number.hpp>
+#include <engine/geometry/ring_check.hpp>
 #include <engine/geometry/vector.hpp>
 #include <nearfield/fill.hpp>
 #include <nearfield/portable_math.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <numbers>
 #include <string>
 #include <utility>
 
 namespace nearfield {
 namespace {
-
-[[noreturn]] void refuse_offset(const std::string& message) {
-    throw StatusException({StatusCode::invalid_shape, message});
-}
 
 /// What a ring with the region to its left grows by: a rectangle to the right of each edge and a
 /// sector of a disc at each vertex. All run counter-clockwise and lie within the radius of the
@@ -113,19 +110,21 @@ ResolvedFill taken(Expected<ResolvedFill> fill) {
 
 void check_offset(double distance, double deviation) {
     if (!(std::abs(distance) <= largest_coordinate)) {
-        refuse_offset("the offset is " + geometry::number(distance) +
-                      "; it must be finite and at most " + geometry::number(largest_coordinate));
+        geometry::refuse_shape("the offset is " + geometry::number(distance) +
+                               "; it must be finite and at most " +
+                               geometry::number(largest_coordinate));
     }
     if (!(deviation > 0.0 && deviation <= largest_coordinate)) {
-        refuse_offset("the deviation of the offset is " + geometry::number(deviation) +
-                      "; it must be above 0 and at most " + geometry::number(largest_coordinate));
+        geometry::refuse_shape("the deviation of the offset is " + geometry::number(deviation) +
+                               "; it must be above 0 and at most " +
+                               geometry::number(largest_coordinate));
     }
 }
 
 void require_deviation(double deviation, double least) {
     if (least > deviation) {
-        refuse_offset("the deviation " + geometry::number(deviation) +
-                      " is below that of the offset, " + geometry::number(least));
+        geometry::refuse_shape("the deviation " + geometry::number(deviation) +
+                               " is below that of the offset, " + geometry::number(least));
     }
 }
 
@@ -138,12 +137,7 @@ ResolvedFill offset(std::span<const Ring> rings, FillRule rule, double distance,
         return region;
     }
     const double radius = std::abs(distance);
-    double magnitude = radius;
-    for (const Ring& ring : region.rings) {
-        for (const Vector2& vertex : ring) {
-            magnitude = std::max({magnitude, std::abs(vertex.x), std::abs(vertex.y)});
-        }
-    }
+    const double magnitude = std::max(radius, geometry::largest_coordinate_of(region.rings));
     const double sagitta = 0.5 * deviation;
     // Of the region, the arcs and the vertices of pieces.
     const double before = region.deviation + sagitta + 0x1p-48 * magnitude;
@@ -171,13 +165,7 @@ ResolvedFill offset(std::span<const Ring> rings, FillRule rule, double distance,
 
 Expected<ResolvedFill> offset_fill(std::span<const Ring> rings, FillRule rule, double distance,
                                    double deviation, const FillSettings& settings) {
-    try {
-        return offset(rings, rule, distance, deviation, settings);
-    } catch (const StatusException& failure) {
-        return failure.status();
-    } catch (const std::bad_alloc&) {
-        return Status(StatusCode::out_of_memory, "the host has no memory left");
-    }
+    return catch_to_expected([&] { return offset(rings, rule, distance, deviation, settings); });
 }
 
 }  // namespace nearfield

@@ -1,14 +1,15 @@
+#include <engine/base/catch_to_status.hpp>
 #include <engine/base/status_exception.hpp>
+#include <engine/geometry/number.hpp>
+#include <engine/geometry/ring_check.hpp>
 #include <engine/geometry/vector.hpp>
 #include <nearfield/curve.hpp>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -24,22 +25,16 @@ namespace {
 
 using geometry::arc_sine;
 using geometry::cross;
+using geometry::largest_of;
+using geometry::number;
+using geometry::refuse_shape;
 using geometry::to_public;
 using geometry::to_vector;
+using geometry::usable;
 using geometry::Vector;
 using std::numbers::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::string number(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
-}
-
-[[noreturn]] void refuse(const std::string& message) {
-    throw StatusException({StatusCode::invalid_shape, message});
-}
 
 /// Half of one minus the cosine of an angle, without cancellation.
 double half_versine(double angle) {
@@ -143,10 +138,6 @@ struct ArcPiece {
     }
 };
 
-double largest_of(const Vector2& v) {
-    return std::max(std::abs(v.x), std::abs(v.y));
-}
-
 /// The largest coordinate of a segment's points and of their computation.
 double magnitude(const CurveSegment& segment) {
     double result = largest_of(segment.to);
@@ -157,11 +148,6 @@ double magnitude(const CurveSegment& segment) {
                   std::min(segment.half_sweep, 1.0) * largest_of(segment.along);
     }
     return result;
-}
-
-bool usable(const Vector2& v) {
-    // Also false for NaN.
-    return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate;
 }
 
 bool usable(const CurveSegment& segment) {
@@ -175,9 +161,9 @@ double checked_magnitude(const CurvePath& path) {
     const std::span<const CurveContour> contours = path.contours();
     for (std::size_t c = 0; c < contours.size(); ++c) {
         const auto refuse_at = [&](const std::string& what) {
-            refuse("contour " + std::to_string(c) + ", " + what +
-                   ": a number is not finite, or its magnitude exceeds " +
-                   number(largest_coordinate));
+            refuse_shape("contour " + std::to_string(c) + ", " + what +
+                         ": a number is not finite, or its magnitude exceeds " +
+                         number(largest_coordinate));
         };
         if (!usable(contours[c].start)) {
             refuse_at("start");
@@ -298,19 +284,21 @@ private:
 
 std::vector<Ring> rings_of(const CurvePath& path, double deviation, std::uint32_t most) {
     if (!path.problem().empty()) {
-        refuse(path.problem());
+        refuse_shape(path.problem());
     }
     if (!(deviation > 0.0 && deviation <= largest_coordinate)) {
-        refuse("the deviation is " + number(deviation) +
-               "; it must be a finite number above 0 and at most " + number(largest_coordinate));
+        refuse_shape("the deviation is " + number(deviation) +
+                     "; it must be a finite number above 0 and at most " +
+                     number(largest_coordinate));
     }
     // Halving a curve down to this rounds by far less than a sixty-fourth of it.
     const double epsilon = std::numeric_limits<double>::epsilon();
     const double smallest = 4096.0 * epsilon * checked_magnitude(path);
     if (deviation < smallest) {
-        refuse("the deviation " + number(deviation) +
-               " is below what double precision resolves at these coordinates; the smallest is " +
-               number(smallest));
+        refuse_shape(
+            "the deviation " + number(deviation) +
+            " is below what double precision resolves at these coordinates; the smallest is " +
+            number(smallest));
     }
     Tessellator tessellator(deviation - smallest / 64.0, most);
     std::vector<Ring> rings;
@@ -320,7 +308,7 @@ std::vector<Ring> rings_of(const CurvePath& path, double deviation, std::uint32_
         }
     }
     if (rings.empty()) {
-        refuse("the path has no contour");
+        refuse_shape("the path has no contour");
     }
     return rings;
 }
@@ -329,13 +317,7 @@ std::vector<Ring> rings_of(const CurvePath& path, double deviation, std::uint32_
 
 Expected<std::vector<Ring>> tessellate(const CurvePath& path, double deviation,
                                        std::uint32_t most) {
-    try {
-        return rings_of(path, deviation, most);
-    } catch (const StatusException& failure) {
-        return failure.status();
-    } catch (const std::bad_alloc&) {
-        return Status(StatusCode::out_of_memory, "the host has no memory left");
-    }
+    return catch_to_expected([&] { return rings_of(path, deviation, most); });
 }
 
 }  // namespace nearfield

@@ -2,13 +2,13 @@
 
 #include <engine/base/status_exception.hpp>
 #include <engine/context/implementation.hpp>
+#include <engine/geometry/ring_check.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/world/instances.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/world.hpp>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -68,12 +68,8 @@ inline void require_pose(const char* call, const char* what, std::size_t i, cons
     }
 }
 
-inline bool is_usable(const Vector2& point) {
-    return std::abs(point.x) <= largest_coordinate && std::abs(point.y) <= largest_coordinate;
-}
-
 inline void require_point(const char* call, const char* what, std::size_t i, const Vector2& point) {
-    if (!is_usable(point)) {
+    if (!geometry::usable(point)) {
         refuse(call, std::string(what) + " " + std::to_string(i) + " is (" +
                          geometry::number(point.x) + ", " + geometry::number(point.y) +
                          "); coordinates must be finite and at most " +
