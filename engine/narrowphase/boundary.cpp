@@ -17,10 +17,9 @@ void Boundary::set(const simd::TransformedEdges& edges) {
 }
 
 void Boundary::set(const geometry::TransformedPolygon& polygon) {
-    own_.clear();
-    const std::uint32_t index = own_.place(polygon);
-    own_.complete(index);
-    set(own_[index]);
+    own_.place_alone(polygon);
+    own_.complete(0);
+    set(own_[0]);
 }
 
 NearestPoint Boundary::nearest(const Vector& point, std::uint32_t first_guess) const {

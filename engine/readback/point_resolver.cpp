@@ -65,10 +65,9 @@ void PointResolver::begin(const plan::PlannedQuery& query, const geometry::Trans
 
 narrowphase::Boundary& PointResolver::boundary_of_b() {
     if (!boundary_is_set_) {
-        instances_.clear();
-        const std::uint32_t index = instances_.place(*b_);
-        instances_.complete(index);
-        boundary_.set(instances_[index]);
+        instances_.place_alone(*b_);
+        instances_.complete(0);
+        boundary_.set(instances_[0]);
         boundary_is_set_ = true;
     }
     return boundary_;

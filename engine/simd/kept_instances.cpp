@@ -29,7 +29,7 @@ void TransformedInstances::clear() {
 }
 
 bool TransformedInstances::can_be_found(const Entry& entry) {
-    return !entry.is_nameless && entry.revision == entry.edges.placed.polygon().revision();
+    return entry.revision == entry.edges.placed.polygon().revision();
 }
 
 /// They share one memory, which is given up as a whole. Where everything moves, what is kept only
@@ -84,9 +84,7 @@ void TransformedInstances::begin_batch() {
 void TransformedInstances::fill_slots() {
     std::fill(slots_.begin(), slots_.end(), empty_slot);
     for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-        if (!entries_[i].is_nameless) {
-            slots_[slot_of(entries_[i].edges.placed.polygon(), entries_[i].pose)] = i;
-        }
+        slots_[slot_of(entries_[i].edges.placed.polygon(), entries_[i].pose)] = i;
     }
 }
 
@@ -97,8 +95,7 @@ bool TransformedInstances::is(const Entry& entry, const Polygon& polygon, const 
 
 bool TransformedInstances::is_at(std::uint32_t index, const Polygon& polygon,
                                  const Pose& pose) const {
-    return index < entries_.size() && !entries_[index].is_nameless &&
-           is(entries_[index], polygon, pose);
+    return index < entries_.size() && is(entries_[index], polygon, pose);
 }
 
 std::size_t TransformedInstances::slot_of(const Polygon& polygon, const Pose& pose) const {
@@ -140,7 +137,7 @@ std::uint32_t TransformedInstances::find_or_add(const Polygon& polygon, const Po
     std::uint32_t& slot = slots_[slot_of(polygon, pose)];
     if (slot == empty_slot) {
         const auto index = static_cast<std::uint32_t>(entries_.size());
-        add(TransformedPolygon(polygon, pose), pose, false);
+        add(TransformedPolygon(polygon, pose), pose);
         slot = index;  // last: memory may have run out
     }
     return slot;

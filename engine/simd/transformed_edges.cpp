@@ -139,20 +139,13 @@ std::size_t TransformedInstances::grow(Entry& entry, std::size_t by) {
     return std::exchange(memory.used, end);  // last: memory may have run out
 }
 
-std::uint32_t TransformedInstances::place(const TransformedPolygon& placed) {
-    add(placed, {}, true);
-    return static_cast<std::uint32_t>(entries_.size()) - 1;
-}
-
-void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose,
-                               bool is_nameless) {
+void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose) {
     const Polygon& polygon = placed.polygon();
     Entry& entry = entries_.emplace_back(Entry{pose,
                                                polygon.revision(),
                                                nullptr,
                                                true,
                                                true,
-                                               is_nameless,
                                                nowhere,
                                                nowhere,
                                                0,
@@ -181,21 +174,25 @@ void TransformedInstances::write_magnitudes(const Pose& pose, TransformedEdges& 
     edges.magnitude = geometry::largest_magnitude(edges.placed, pose, edges.box);
 }
 
-bool TransformedInstances::move(std::uint32_t index, const TransformedPolygon& placed) {
-    if (index >= entries_.size()) {
-        return false;
+void TransformedInstances::place_alone(const TransformedPolygon& placed) {
+    const Polygon& polygon = placed.polygon();
+    // Arrays of few edges in few rings are written anew where they are, unless memory ran out.
+    const bool fits = !entries_.empty() && entries_.front().first != nowhere &&
+                      is_small(entries_.front().edges) &&
+                      entries_.front().edges.count == polygon.size() && !is_in_pieces(polygon);
+    if (!fits) {
+        clear();
+        add(placed, {});
+        return;
     }
-    Entry& entry = entries_[index];
-    const bool has_arrays = entry.first != nowhere;  // unless memory ran out
-    if (!is(entry, placed.polygon(), {}) || !is_small(entry.edges) || !has_arrays ||
-        is_in_pieces(placed.polygon())) {
-        return false;
-    }
+    Entry& entry = entries_.front();
+    entry.revision = polygon.revision();
+    entry.first_piece = entry.end_piece = 0;
     entry.edges.placed = placed;
+    find_arrays(entry);
     entry.edges.box = write_arrays(entry);
     write_magnitudes({}, entry.edges);
     entry.is_complete = false;
-    return true;
 }
 
 void TransformedInstances::complete(std::uint32_t index) {

@@ -68,11 +68,9 @@ public:
     /// Returns the index of an instance, and transforms it if it is new. If it has many edges, only
     /// its box, rounding and magnitude are known until complete().
     [[nodiscard]] std::uint32_t place(const geometry::Polygon& polygon, const Pose& pose);
-    /// The same for an instance that the other place() will not find again.
-    [[nodiscard]] std::uint32_t place(const geometry::TransformedPolygon& placed);
-    /// Puts an instance that the other place() added at another pose. Returns false, and does
-    /// nothing, unless it has this polygon, as it was then, with few edges in few rings.
-    [[nodiscard]] bool move(std::uint32_t index, const geometry::TransformedPolygon& placed);
+    /// Makes an instance the only one, with index 0: of many poses of a shape, one after the other,
+    /// or of many shapes. No place() is to follow.
+    void place_alone(const geometry::TransformedPolygon& placed);
     /// Transforms all edges and builds the boxes over them.
     void complete(std::uint32_t index);
     /// Host memory, in bytes.
@@ -103,7 +101,6 @@ private:
         std::unique_ptr<Memory> own;  // null: its arrays are in the memory that entries share
         bool is_placed;               // since the last batch began
         bool is_kept;                 // where that batch began
-        bool is_nameless;             // no place() finds it
         std::size_t first;            // of its arrays, which are consecutive
         std::size_t first_boxes;      // `nowhere`, like the arrays, until they exist
         std::size_t first_piece;      // of its pieces, if any
@@ -114,11 +111,11 @@ private:
     [[nodiscard]] std::size_t slot_of(const geometry::Polygon& polygon, const Pose& pose) const;
     [[nodiscard]] static bool is(const Entry& entry, const geometry::Polygon& polygon,
                                  const Pose& pose);
-    /// The same for the entry of an index, if there is one that place() may find.
+    /// The same for the entry of an index, if there is one.
     [[nodiscard]] bool is_at(std::uint32_t index, const geometry::Polygon& polygon,
                              const Pose& pose) const;
     [[nodiscard]] std::uint32_t find_or_add(const geometry::Polygon& polygon, const Pose& pose);
-    void add(const geometry::TransformedPolygon& placed, const Pose& pose, bool is_nameless);
+    void add(const geometry::TransformedPolygon& placed, const Pose& pose);
     /// The number of vectors that the arrays of an entry take, and its boxes, once it has pieces.
     [[nodiscard]] static std::size_t room_of(const Entry& entry);
     [[nodiscard]] static std::size_t room_of_boxes(const Entry& entry);

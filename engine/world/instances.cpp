@@ -155,11 +155,9 @@ void Instances::make_edges(std::uint32_t index) const {
     if (kept.has_edges.load(std::memory_order_relaxed)) {
         return;
     }
-    kept.edges.clear();
-    const std::uint32_t only =
-        kept.edges.place(TransformedPolygon(*kept.polygon, entries_[index].instance.pose));
-    kept.edges.complete(only);
-    kept.tree.emplace(kept.edges[only].tree());
+    kept.edges.place_alone(TransformedPolygon(*kept.polygon, entries_[index].instance.pose));
+    kept.edges.complete(0);
+    kept.tree.emplace(kept.edges[0].tree());
     kept.has_edges.store(true, std::memory_order_release);
 }
 

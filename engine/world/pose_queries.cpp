@@ -38,13 +38,6 @@ void PoseQueries::begin(const Instances& instances, const geometry::Polygon& sha
     guess_ = {};
 }
 
-void PoseQueries::place(const TransformedPolygon& placed) {
-    if (!shape_edges_.move(0, placed)) {
-        shape_edges_.clear();
-        static_cast<void>(shape_edges_.place(placed));
-    }
-}
-
 const simd::TransformedEdges& PoseQueries::complete_edges() {
     shape_edges_.complete(0);
     return edges();
@@ -83,7 +76,7 @@ bool PoseQueries::intersects(const TransformedPolygon& placed) {
         guess_.instance = BoxHierarchy::nowhere;
         return false;
     }
-    place(placed);
+    shape_edges_.place_alone(placed);
     // What was hit before is likely to be hit again.
     const auto before = std::find(candidates_.begin(), candidates_.end(), guess_.instance);
     if (before != candidates_.end()) {
@@ -128,7 +121,7 @@ void PoseQueries::find_intersecting(const TransformedPolygon& placed,
     if (candidates_.empty()) {
         return;
     }
-    place(placed);
+    shape_edges_.place_alone(placed);
     std::copy_if(candidates_.begin(), candidates_.end(), std::back_inserter(found),
                  [this](std::uint32_t index) { return intersects(index); });
 }
@@ -230,7 +223,7 @@ void PoseQueries::measure(std::uint32_t index, bool intersects, const ClearanceQ
 }
 
 Clearance PoseQueries::clearance(const TransformedPolygon& placed, const ClearanceQuery& query) {
-    place(placed);
+    shape_edges_.place_alone(placed);
     best_ = {};
     nearest_ = BoxHierarchy::nowhere;
     const std::uint32_t guess = guess_.instance;
@@ -269,7 +262,7 @@ Clearance PoseQueries::clearance(const TransformedPolygon& placed, const Clearan
 
 void PoseQueries::find_nearest(const TransformedPolygon& placed, double max_distance,
                                std::span<Clearance> nearest) {
-    place(placed);
+    shape_edges_.place_alone(placed);
     guess_ = {};
     found_.begin(nearest.size(), max_distance);
     const double rounding = edges().rounding + instances_->max_rounding();

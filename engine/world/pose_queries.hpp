@@ -54,7 +54,6 @@ private:
         Clearance clearance;
     };
 
-    void place(const geometry::TransformedPolygon& placed);
     /// The shape's edges at the pose, with or without the boxes over them.
     [[nodiscard]] const simd::TransformedEdges& edges() const { return shape_edges_[0]; }
     [[nodiscard]] const simd::TransformedEdges& complete_edges();

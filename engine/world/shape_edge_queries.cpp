@@ -96,10 +96,7 @@ ShapeEdgeHit ShapeEdgeQueries::hit_of(const Found& found) const {
 
 void ShapeEdgeQueries::find(const geometry::TransformedPolygon& placed, double max_distance,
                             std::span<ShapeEdgeHit> hits) {
-    if (!shape_edges_.move(0, placed)) {
-        shape_edges_.clear();
-        static_cast<void>(shape_edges_.place(placed));
-    }
+    shape_edges_.place_alone(placed);
     shape_edges_.complete(0);
     nearest_.begin(hits.size(), max_distance);
     const double rounding = shape().rounding + instances_->max_rounding();
