@@ -31,22 +31,15 @@ auto order_of(const simd::VertexAndEdge& pair) {
 
 }  // namespace
 
-std::uint32_t ClosestPairFinder::first_vertex() const {
-    if (is_small(*a_)) {
-        return simd::kernels::find_point_nearest_to(a_->starts(), geometry::extent_of(b_->box));
-    }
-    // A search by boxes is quicker than a look at all vertices.
-    const Vector centre = b_->box.center();
-    return simd::kernels::find_nearer(*tree_a_, centre.x(), centre.y(), {0, infinity}).edge;
-}
-
 double ClosestPairFinder::squared_bound(double known) const {
     // From a vertex near the other's box to the other boundary and back: this quickly gets close.
     const simd::TransformedEdges* from = a_;
     const simd::TransformedEdges* other = b_;
     const simd::AabbTree* tree = &*tree_b_;
     const simd::AabbTree* other_tree = &*tree_a_;
-    std::uint32_t vertex = first_vertex();
+    const Vector centre = b_->box.center();
+    std::uint32_t vertex =
+        simd::kernels::find_nearer(*tree_a_, centre.x(), centre.y(), {0, infinity}).edge;
     double least = known;
     for (int turn = 0; turn < 4; ++turn) {
         const simd::NearEdge nearest = simd::kernels::find_nearer(

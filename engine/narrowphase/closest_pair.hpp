@@ -57,8 +57,6 @@ private:
     /// The two as points of A and B.
     [[nodiscard]] ClosestPair pair_of(const simd::VertexAndEdge& found,
                                       const geometry::NearestOnSegment& nearest) const;
-    /// A vertex of A near B.
-    [[nodiscard]] std::uint32_t first_vertex() const;
     /// An upper bound from some vertices and edges near them; at most the one that is known.
     [[nodiscard]] double squared_bound(double known) const;
     /// The closest of those kept.

@@ -60,10 +60,4 @@ Vector outward_normal(const Boundary& boundary, const AskedBoundaryNormal& asked
     return length > 1e-9 ? Vector(sum / length) : after;
 }
 
-Vector outward_normal_at(Boundary& boundary, const plan::BoundaryPoint& point) {
-    const AskedBoundaryNormal asked = ask_outward_normal_at(boundary, point);
-    boundary.answer_asked();
-    return outward_normal(boundary, asked);
-}
-
 }  // namespace nearfield::records

@@ -29,8 +29,4 @@ struct AskedBoundaryNormal {
 [[nodiscard]] geometry::Vector outward_normal(const narrowphase::Boundary& boundary,
                                               const AskedBoundaryNormal& asked);
 
-/// Asks and answers.
-[[nodiscard]] geometry::Vector outward_normal_at(narrowphase::Boundary& boundary,
-                                                 const plan::BoundaryPoint& point);
-
 }  // namespace nearfield::records

@@ -201,33 +201,6 @@ bool FindIntersectingPair(const EdgeArrays& first, const EdgeArrays& second, dou
     return false;
 }
 
-/// Squared distances of points from a box; 0 inside.
-HWY_INLINE Lanes squared_to(const LanesOfExtent& box, Lanes x, Lanes y) {
-    const Lanes zero = hn::Zero(Tag());
-    const Lanes off_x = hn::Max(hn::Max(hn::Sub(box.low_x, x), hn::Sub(x, box.high_x)), zero);
-    const Lanes off_y = hn::Max(hn::Max(hn::Sub(box.low_y, y), hn::Sub(y, box.high_y)), zero);
-    return hn::Add(hn::Mul(off_x, off_x), hn::Mul(off_y, off_y));
-}
-
-std::uint32_t FindPointNearestTo(const PointArrays& points, const Extent& box) {
-    const Tag tag;
-    const LanesOfExtent bounds = lanes_of(box);
-    Lanes least = hn::Set(tag, std::numeric_limits<double>::infinity());
-    Lanes index = hn::Iota(tag, 0.0);
-    Lanes nearest = index;
-    const Lanes step = hn::Set(tag, static_cast<double>(hn::Lanes(tag)));
-    for (std::size_t i = 0; i < points.count; i += hn::Lanes(tag)) {
-        const Lanes squared =
-            squared_to(bounds, hn::LoadU(tag, points.x + i), hn::LoadU(tag, points.y + i));
-        const LaneMask nearer = hn::Lt(squared, least);
-        least = hn::IfThenElse(nearer, squared, least);
-        nearest = hn::IfThenElse(nearer, index, nearest);
-        index = hn::Add(index, step);
-    }
-    const std::uint32_t found = min_of(least, nearest).edge;
-    return found < points.count ? found : points.count - 1;
-}
-
 }  // namespace nearfield::simd::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -242,7 +215,6 @@ HWY_EXPORT(FindNearest);
 HWY_EXPORT(FindEdgesWithin);
 HWY_EXPORT(FindEdgesIn);
 HWY_EXPORT(FindIntersectingPair);
-HWY_EXPORT(FindPointNearestTo);
 
 void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length) {
     HWY_DYNAMIC_DISPATCH(FindInverseLengths)(edges, inverse_length);
@@ -279,10 +251,6 @@ std::uint32_t find_edges_in(const EdgeArrays& edges, const Extent& box, std::uin
 bool find_intersecting_pair(const EdgeArrays& first, const EdgeArrays& second, double margin,
                             EdgePair& pair) {
     return HWY_DYNAMIC_DISPATCH(FindIntersectingPair)(first, second, margin, pair);
-}
-
-std::uint32_t find_point_nearest_to(const PointArrays& points, const Extent& box) {
-    return HWY_DYNAMIC_DISPATCH(FindPointNearestTo)(points, box);
 }
 
 }  // namespace nearfield::simd::kernels

@@ -111,10 +111,6 @@ void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length);
 [[nodiscard]] bool find_intersecting_pair(const EdgeArrays& first, const EdgeArrays& second,
                                           double margin, EdgePair& pair);
 
-/// Returns the point nearest to a box; of equally near ones the first. Precondition: at least one
-/// point.
-[[nodiscard]] std::uint32_t find_point_nearest_to(const PointArrays& points, const Extent& box);
-
 }  // namespace kernels
 
 }  // namespace nearfield::simd

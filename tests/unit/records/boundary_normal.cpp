@@ -22,7 +22,9 @@ TEST(BoundaryNormal, OfARingThatIsOnePointInTheWorldIsAUnitVector) {
     narrowphase::Boundary boundary;
     boundary.set(placed);
     for (std::uint32_t edge = 4; edge < polygon.size(); ++edge) {
-        const Vector normal = outward_normal_at(boundary, {edge, 0.5});
+        const AskedBoundaryNormal asked = ask_outward_normal(boundary, edge, 0.5);
+        boundary.answer_asked();
+        const Vector normal = outward_normal(boundary, asked);
         EXPECT_NEAR(normal.norm(), 1.0, 1e-12) << "edge " << edge;
     }
 }

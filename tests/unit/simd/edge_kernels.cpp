@@ -50,7 +50,6 @@ std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose
     add_points(kernels::find_points_inside(edges_a.starts(), box_b, edges_b, crossed.data(),
                                            {x.data(), y.data()}));
     add_found(kernels::find_edges_in(edges_a, box_b, found.data()));
-    said.push_back(kernels::find_point_nearest_to(edges_a.starts(), box_b));
     for (const Vector& point : points) {
         said.push_back(kernels::contain(edges_a, point.x(), point.y()) ? 1.0 : 0.0);
         const NearEdge nearest = kernels::find_nearest(edges_a, point.x(), point.y());
