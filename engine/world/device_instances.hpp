@@ -11,7 +11,6 @@
 #include <nearfield/shape.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,12 +25,6 @@ inline void clear_parts(Timings& timings) {
         pass.milliseconds = 0.0;
     }
 }
-
-/// A world, as the calls of one that work on the device see it.
-struct WorldOnDevice {
-    const std::shared_ptr<const void>& identity;  // of the world
-    const world::Instances& instances;
-};
 
 /// The instances of a world as the device was told of them last, for one question: what of them is
 /// written to the device. Their shapes are held. Its members throw.

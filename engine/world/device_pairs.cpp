@@ -153,19 +153,19 @@ void DevicePairs::decide() {
     timings_.decode = start.milliseconds();
 }
 
-void DevicePairs::start(const char* call, Context::Implementation& with, const PairSource& source,
+void DevicePairs::start(const char* call, const WorldView& world, const DevicePoses* poses,
                         const Recording* recording) {
     const Stopwatch total;
     set_submitted(false);
     frame_.reset();
     lacks_room_ = false;
-    const world::Instances& instances = source.instances;
-    if (context_ != &with || world_.lock() != source.identity) {
+    const world::Instances& instances = world.instances;
+    if (context_ != &world.context || world_.lock() != world.identity) {
         start_anew();
-        context_ = &with;
-        world_ = source.identity;
+        context_ = &world.context;
+        world_ = world.identity;
     }
-    set_poses(source.poses);
+    set_poses(poses);
     check(call);
     rows_ = 0;
     decided_.clear();
@@ -377,12 +377,12 @@ void DevicePairs::collect_recorded() {
     }
 }
 
-bool DevicePairs::is_recorded(const Context::Implementation& with,
-                              const WorldOnDevice& source) const {
-    const render::Renderer* const renderer = with.renderer();
-    return frame_ && !lacks_room_ && context_ == &with && world_.lock() == source.identity &&
-           instances_.are_those_of(with.shapes(), source.instances) &&
-           filters_ == source.instances.filters() && renderer_ == renderer->number();
+bool DevicePairs::is_recorded(const WorldView& world) const {
+    const render::Renderer* const renderer = world.context.renderer();
+    return frame_ && !lacks_room_ && context_ == &world.context &&
+           world_.lock() == world.identity &&
+           instances_.are_those_of(world.context.shapes(), world.instances) &&
+           filters_ == world.instances.filters() && renderer_ == renderer->number();
 }
 
 }  // namespace nearfield

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <engine/context/implementation.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/readback/contacts.hpp>
@@ -8,8 +7,8 @@
 #include <engine/records/found_contacts.hpp>
 #include <engine/render/pair_search_buffers.hpp>
 #include <engine/world/device_instances.hpp>
-#include <engine/world/instances.hpp>
 #include <engine/world/pair_row.hpp>
+#include <engine/world/world_view.hpp>
 #include <nearfield/device_poses.hpp>
 #include <nearfield/pairs_on_device.hpp>
 #include <nearfield/submission.hpp>
@@ -21,11 +20,6 @@
 #include <vector>
 
 namespace nearfield {
-
-/// A world, and where the poses of its instances are.
-struct PairSource : WorldOnDevice {
-    const DevicePoses* poses = nullptr;  // of the host; null: the instances' own
-};
 
 /// The pairs of a table that the device finds and answers, and what rows are read from. Its members
 /// throw; after start() or finish() has, start_anew() has to be called.
@@ -39,9 +33,10 @@ public:
     DevicePairs& operator=(const DevicePairs&) = delete;
 
     /// Lets the device begin, or records what it does into commands of the host, which submits them
-    /// as many times as it calls collect_recorded(). `call`: for messages.
-    void start(const char* call, Context::Implementation& with, const PairSource& source,
-               const Recording* recording = nullptr);
+    /// as many times as it calls collect_recorded(). `call`: for messages. `poses`: of the host;
+    /// null: the instances' own.
+    void start(const char* call, const WorldView& world, const DevicePoses* poses,
+               const Recording* recording);
     /// Waits, and makes the rows of what was started.
     void finish();
     /// The same of what was recorded; what uses it stays whatever happens.
@@ -53,9 +48,8 @@ public:
     void require_complete_frame(const char* call) const;
     [[nodiscard]] bool is_submitted() const { return is_submitted_; }
     [[nodiscard]] bool is_for_frame() const { return frame_.has_value(); }
-    /// Whether what was recorded is about the source as it is, and has room.
-    [[nodiscard]] bool is_recorded(const Context::Implementation& with,
-                                   const WorldOnDevice& source) const;
+    /// Whether what was recorded is about the world as it is, and has room.
+    [[nodiscard]] bool is_recorded(const WorldView& world) const;
     [[nodiscard]] bool is_ready() const;
     /// Precondition: the query is resident.
     [[nodiscard]] PairsOnDevice on_device() const;

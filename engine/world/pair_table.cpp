@@ -332,8 +332,7 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
     read_status = {};
     forget_exact_rows();
     if (device_ != nullptr) {
-        device_->start(call, world.context, {{world.identity, world.instances}, input.poses},
-                       recording);
+        device_->start(call, world, input.poses, recording);
         return;
     }
     const Stopwatch total;
@@ -812,8 +811,7 @@ Status World::record(PairTableBase& table, const Recording& recording, const Pai
 
 bool World::is_recorded(const PairTableBase& table) const noexcept {
     const DevicePairs* const device = table.state_->device_.get();
-    return device != nullptr &&
-           device->is_recorded(*state_->context, {state_->identity, state_->instances});
+    return device != nullptr && device->is_recorded(state_->view());
 }
 
 }  // namespace nearfield

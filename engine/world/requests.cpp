@@ -100,9 +100,9 @@ bool WorldRequest::State::pays_on_device(const World::State& world, std::size_t 
            questions >= paying_questions;
 }
 
-void WorldRequest::State::start(const char* call, Context::Implementation& with,
-                                const WorldOnDevice& world, const WorldFilter& filter,
+void WorldRequest::State::start(const char* call, const WorldView& world, const WorldFilter& filter,
                                 std::size_t questions) {
+    Context::Implementation& with = world.context;
     if (context_ != &with || world_.lock() != world.identity) {
         forget();
         context_ = &with;

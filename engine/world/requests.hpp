@@ -84,8 +84,8 @@ protected:
     /// What was submitted is lost, and all that is known of the world.
     void forget();
     /// Tells the device of the instances, and begins to count the time.
-    void start(const char* call, Context::Implementation& with, const WorldOnDevice& world,
-               const WorldFilter& filter, std::size_t questions);
+    void start(const char* call, const WorldView& world, const WorldFilter& filter,
+               std::size_t questions);
     /// Whether there is anything to ask the device.
     [[nodiscard]] bool is_asked() const { return instances_.size() > 0 && count > 0; }
     /// Lets the device begin. `push`: what depends on the kind of questions.
@@ -268,8 +268,7 @@ private:
         run_or_forget(*world.context, [&] {
             const Stopwatch total;
             kind_ = kind;
-            start(Kind::call, *world.context, {world.identity, world.instances}, filter,
-                  inputs.size());
+            start(Kind::call, world.view(), filter, inputs.size());
             if (is_asked()) {
                 std::byte* const memory = buffers_->reserve(count, context_->memory_limit());
                 inputs_.assign(inputs.begin(), inputs.end());

@@ -7,7 +7,7 @@
 
 namespace nearfield {
 
-/// A world, as its tables of pairs see it.
+/// A world, as its tables of pairs and requests see it.
 struct WorldView {
     Context::Implementation& context;
     const std::shared_ptr<const void>& identity;  // of the world
