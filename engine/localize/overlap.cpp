@@ -105,26 +105,22 @@ public:
         level_.candidates.push_back({root_a_, 0, level_.lists.size()});
     }
 
-    /// Refines while some node splits and the number of pairs allows it.
-    void run() {
-        while (level_.lists.size() <= max_pairs && split_nodes()) {
-            split_candidates();
-            std::swap(level_, next_);
-        }
-    }
-
-    /// Runs the descent and also keeps the candidates of B: box overlap is symmetric.
-    void run_both_ways() {
+    /// Refines while some node splits and the number of pairs allows it. `both_ways`: also keeps
+    /// the candidates of B, as box overlap is symmetric.
+    void run(bool both_ways) {
         std::vector<Candidate>& found = thread_scratch().unordered;
         found.clear();
         while (level_.lists.size() <= max_pairs && split_nodes()) {
-            for (std::size_t i = 0; i < level_.nodes.size(); ++i) {
+            for (std::size_t i = 0; both_ways && i < level_.nodes.size(); ++i) {
                 if (halves_[i].count == 0) {
                     found.push_back({level_.nodes[i], 0, 0});
                 }
             }
             split_candidates();
             std::swap(level_, next_);
+        }
+        if (!both_ways) {
+            return;
         }
         const std::size_t settled = found.size();
         for (const Node& node : level_.nodes) {
@@ -140,7 +136,7 @@ public:
     [[nodiscard]] Boundary of_a() const {
         return {level_.candidates, tree_a_.polygon(), tree_b_.polygon(), root_b_.box, margin_};
     }
-    /// The same for B. Precondition: run_both_ways().
+    /// The same for B. Precondition: run(true).
     [[nodiscard]] Boundary of_b() const {
         return {thread_scratch().of_b, tree_b_.polygon(), tree_a_.polygon(), root_a_.box, margin_};
     }
@@ -334,7 +330,7 @@ void append_chains_in_volume(const Boundary& boundary, std::vector<Chain>& chain
 Effort chains_near_boundary(const TransformedPolygon& a, const TransformedPolygon& b,
                             const OverlapOptions& options, std::vector<Chain>& chains) {
     Descent descent(a, b, options);
-    descent.run();
+    descent.run(false);
     ChainWriter writer(a.polygon(), chains);
     for (const Candidate& candidate : descent.of_a().candidates) {
         if (!candidate.settled()) {
@@ -348,7 +344,7 @@ Effort chains_near_boundary(const TransformedPolygon& a, const TransformedPolygo
 Effort chains_in_volume(const TransformedPolygon& a, const TransformedPolygon& b,
                         const OverlapOptions& options, std::vector<Chain>& chains) {
     Descent descent(a, b, options);
-    descent.run();
+    descent.run(false);
     append_chains_in_volume(descent.of_a(), chains);
     return descent.effort();
 }
@@ -357,7 +353,7 @@ Effort chains_in_each_other(const TransformedPolygon& a, const TransformedPolygo
                             const OverlapOptions& options, std::vector<Chain>& of_a,
                             std::vector<Chain>& of_b) {
     Descent descent(a, b, options);
-    descent.run_both_ways();
+    descent.run(true);
     append_chains_in_volume(descent.of_a(), of_a);
     append_chains_in_volume(descent.of_b(), of_b);
     return descent.effort();
