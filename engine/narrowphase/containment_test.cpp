@@ -76,13 +76,6 @@ bool is_in(const TransformedEdges& edges, const Vector& point) {
     return edges.box.contains(point) && contains(edges, point);
 }
 
-/// Lists the edges whose boxes intersect a box.
-std::uint32_t find_edges_in(const TransformedEdges& edges, const Box& box, std::uint32_t* found) {
-    const simd::Extent extent = geometry::extent_of(box);
-    return is_small(edges) ? simd::kernels::find_edges_in(edges, extent, found)
-                           : simd::kernels::find_edges_in(edges.tree(), extent, found);
-}
-
 /// Calls `use` with the parts of edges between two places of a ring until it returns false; returns
 /// whether it never did.
 template <class Use>
@@ -211,13 +204,11 @@ void ContainmentTest::cut_where_edges_begin_and_end(std::uint32_t edge, double f
     checkpoint();
     cuts_.assign({from, to});
     for (const TransformedEdges* const edges : {a_, b_}) {
-        const std::uint32_t count = find_edges_in(*edges, box, near_.data());
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (edges == b_ && near_[i] == edge) {
+        for (const std::uint32_t other : find_edges_in(*edges, box, near_)) {
+            if (edges == b_ && other == edge) {
                 continue;
             }
-            const auto part =
-                part_near(start, end, edges->start(near_[i]), edges->end(near_[i]), width);
+            const auto part = part_near(start, end, edges->start(other), edges->end(other), width);
             if (part) {
                 cuts_.push_back(std::clamp(part->first, from, to));
                 cuts_.push_back(std::clamp(part->second, from, to));
@@ -261,7 +252,6 @@ bool ContainmentTest::ring_borders_outside(std::uint32_t begin, std::uint32_t en
 }
 
 bool ContainmentTest::contains_outside() {
-    near_.resize(std::max(near_.size(), simd::padded(std::max(a_->count, b_->count))));
     return !for_each_ring(*b_, on_b_, [&](std::uint32_t begin, std::uint32_t end, auto touching) {
         return !ring_borders_outside(begin, end, touching);
     });

@@ -79,6 +79,18 @@ NearEdge find_nearest(const TransformedEdges& edges, const geometry::Vector& poi
                            : kernels::find_nearer(edges.tree(), point.x(), point.y(), nothing);
 }
 
+std::span<const std::uint32_t> find_edges_in(const TransformedEdges& edges,
+                                             const geometry::Box& box,
+                                             std::vector<std::uint32_t>& memory) {
+    if (memory.size() < padded(edges.count)) {
+        memory.resize(padded(edges.count));
+    }
+    const std::uint32_t count =
+        is_small(edges) ? kernels::find_edges_in(edges, extent_of(box), memory.data())
+                        : kernels::find_edges_in(edges.tree(), extent_of(box), memory.data());
+    return {memory.data(), count};
+}
+
 void TransformedInstances::Memory::clear() {
     used = 0;
     pieces.clear();

@@ -54,6 +54,11 @@ using geometry::extent_of;
 [[nodiscard]] bool contains(const TransformedEdges& edges, const geometry::Vector& point);
 /// Returns the edge nearest to a point. Same precondition.
 [[nodiscard]] NearEdge find_nearest(const TransformedEdges& edges, const geometry::Vector& point);
+/// Lists the edges whose boxes intersect a box, in memory that grows where it has to. Same
+/// precondition.
+[[nodiscard]] std::span<const std::uint32_t> find_edges_in(const TransformedEdges& edges,
+                                                           const geometry::Box& box,
+                                                           std::vector<std::uint32_t>& memory);
 
 /// The instances of a batch, each transformed once, however many pairs it is in. Reuses its memory.
 class TransformedInstances {

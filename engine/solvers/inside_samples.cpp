@@ -10,24 +10,12 @@ using geometry::Vector;
 using narrowphase::Crossing;
 using simd::TransformedEdges;
 
-std::span<const std::uint32_t> InsideSamples::edges_near(const simd::TransformedEdges& a,
-                                                         const simd::TransformedEdges& b) {
-    if (near_.size() < simd::padded(a.count)) {
-        near_.resize(simd::padded(a.count));
-    }
-    const simd::Extent box = geometry::extent_of(b.box);
-    const std::uint32_t count = is_small(a)
-                                    ? simd::kernels::find_edges_in(a, box, near_.data())
-                                    : simd::kernels::find_edges_in(a.tree(), box, near_.data());
-    return {near_.data(), count};
-}
-
 double InsideSamples::max_samples(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                   double spacing) {
     plan::EdgeSampler sampler(a.placed.polygon(), spacing);
     double count = 0.0;
     SparseCheckpoint<256> checkpoint;
-    for (const std::uint32_t edge : edges_near(a, b)) {
+    for (const std::uint32_t edge : find_edges_in(a, b.box, near_)) {
         checkpoint.step();
         const plan::PartRange range =
             plan::parts_within(a.placed, edge, sampler.parts_of(edge), b.box);
@@ -57,7 +45,7 @@ void InsideSamples::find(const simd::TransformedEdges& a, const simd::Transforme
     std::uint32_t ring = 0;
     std::uint32_t after_last = 0;  // index of the last edge plus 1
     SparseCheckpoint<64> checkpoint;
-    for (const std::uint32_t edge : edges_near(a, b)) {
+    for (const std::uint32_t edge : find_edges_in(a, b.box, near_)) {
         checkpoint.step();
         while (edge >= polygon.ring_end(ring)) {
             ++ring;

@@ -46,8 +46,6 @@ private:
         Ticket side;
     };
 
-    [[nodiscard]] std::span<const std::uint32_t> edges_near(const simd::TransformedEdges& a,
-                                                            const simd::TransformedEdges& b);
     /// Appends the inside samples of an edge that is divided into `parts`.
     void follow(std::uint32_t edge, double parts, std::span<const narrowphase::Crossing> crossings);
     /// Appends the samples of parts `part`, ..., end - 1, which lie on one side.
