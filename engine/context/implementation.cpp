@@ -160,17 +160,29 @@ std::span<const InstancePair> Context::Implementation::find_overlapping_boxes(
         }
         max_rounding = std::max(max_rounding, bounds_[i].rounding);
     }
-    boxes_.prepare();
+    // So few are compared with each other in less time than with boxes around them.
+    constexpr std::size_t few = 32;
+    const bool are_few = instances.size() <= few;
+    if (!are_few) {
+        boxes_.prepare();
+    }
     instance_pairs_.clear();
     // Slightly more than the margin of any pair, for the rounding of what is compared below.
     const double margin = reach * (1.0 + 1e-9) + 3.0 * max_rounding;
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
         const auto before = static_cast<std::ptrdiff_t>(instance_pairs_.size());
-        boxes_.for_meeting(geometry::grown(bounds_[i].box, margin), [&](std::uint32_t other) {
+        const auto compare = [&](std::uint32_t other) {
             if (i < other && localize::may_meet(bounds_[i], bounds_[other], reach)) {
                 instance_pairs_.push_back({i, other});
             }
-        });
+        };
+        if (are_few) {
+            for (std::uint32_t other = i + 1; other < instances.size(); ++other) {
+                compare(other);
+            }
+            continue;
+        }
+        boxes_.for_meeting(geometry::grown(bounds_[i].box, margin), compare);
         std::sort(instance_pairs_.begin() + before, instance_pairs_.end(),
                   [](const InstancePair& one, const InstancePair& other) {
                       return one.second < other.second;
