@@ -39,7 +39,7 @@ check_sanitized() {
     # A program, its tests and how many random cases, if fewer than usual, per line; they run in
     # parallel, the longest first.
     local runs=(
-        'worlds/test_worlds -WorldHistory.* 2' 'driver/test_driver HostMemory.*'
+        'worlds/test_worlds -WorldHistory.* 3' 'driver/test_driver HostMemory.*'
         'worlds/test_worlds WorldHistory.* 40' 'driver/test_driver -HostMemory.*'
         'test_geometry *' 'test_outline *' 'test_localize *' 'test_simd *' 'test_narrowphase *'
         'test_grid *' 'test_solvers *' 'test_plan *' 'test_graph -GraphExecute.*' 'test_mtv *'
