@@ -14,10 +14,9 @@ class FunctionRef;
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
 public:
-    template <class Function>
-    requires(!std::is_same_v<std::remove_cvref_t<Function>, FunctionRef>)
-        FunctionRef(Function&& function)
-    noexcept  // NOLINT: stands for the function
+    template <class Function,
+              class = std::enable_if_t<!std::is_same_v<std::remove_cvref_t<Function>, FunctionRef>>>
+    FunctionRef(Function&& function) noexcept
         : function_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
           call_([](void* of, Arguments... arguments) -> Result {
               return (*static_cast<std::remove_reference_t<Function>*>(of))(
