@@ -259,20 +259,20 @@ void PairTableBase::State::run_or_start_anew(const Action& action) {
 }
 
 void PairTableBase::State::start_anew() {
-    is_submitted_ = false;
-    row_count_ = candidate_count_ = answer_count_ = 0;
+    is_submitted = false;
+    row_count = candidate_count = answer_count = 0;
     forget_answers();
     forget_exact_rows();
-    if (device_ != nullptr) {
-        device_->start_anew();
+    if (device != nullptr) {
+        device->start_anew();
     }
 }
 
 void PairTableBase::State::require_collected(const char* call) const {
-    if (device_ != nullptr) {
-        device_->require_collected(call);
+    if (device != nullptr) {
+        device->require_collected(call);
     }
-    if (is_submitted_) {
+    if (is_submitted) {
         throw StatusException(
             {StatusCode::not_ready,
              std::string(call) + ": the table was submitted, and has not been collected since"});
@@ -307,9 +307,9 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
     technique_ = technique;
     if (technique == Technique::compute && !options.listed) {
         table::require_for_device(call, query, options);
-        if (device_ == nullptr) {
+        if (device == nullptr) {
             start_anew();
-            device_ = std::make_unique<DevicePairs>(query, options.reach, timings);
+            device = std::make_unique<DevicePairs>(query, options.reach, timings);
         }
     } else {
         if (needs_device) {
@@ -319,9 +319,9 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
                        (technique == Technique::compute ? "has a list of pairs"
                                                         : "is answered by Technique::cpu"));
         }
-        if (device_ != nullptr) {
+        if (device != nullptr) {
             start_anew();
-            device_.reset();
+            device.reset();
         }
     }
 }
@@ -331,15 +331,15 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
     choose(call, world, input, recording != nullptr);
     read_status = {};
     forget_exact_rows();
-    if (device_ != nullptr) {
-        device_->start(call, world, input.poses, recording);
+    if (device != nullptr) {
+        device->start(call, world, input.poses, recording);
         return;
     }
     const Stopwatch total;
     timings.plan = timings.record = timings.device = 0.0;
     timings.passes.clear();
     answer(call, world, input);
-    is_submitted_ = true;
+    is_submitted = true;
     timings.total = total.milliseconds();
     timings.decode = timings.total - timings.plan - timings.device;
 }
@@ -353,24 +353,24 @@ void PairTableBase::State::start(const char* call, const WorldView& world,
 
 void PairTableBase::State::finish() {
     run_or_start_anew([&] {
-        if (device_ != nullptr) {
-            device_->finish();
+        if (device != nullptr) {
+            device->finish();
         }
-        is_submitted_ = false;
+        is_submitted = false;
     });
 }
 
 void PairTableBase::State::collect() {
-    const bool is_for_frame = device_ != nullptr && device_->is_for_frame();
+    const bool is_for_frame = device != nullptr && device->is_for_frame();
     if (is_for_frame) {
-        device_->require_complete_frame("collect");
-    } else if (!is_submitted_ && (device_ == nullptr || !device_->is_submitted())) {
+        device->require_complete_frame("collect");
+    } else if (!is_submitted && (device == nullptr || !device->is_submitted())) {
         throw StatusException({StatusCode::not_ready, "collect: the table was not submitted"});
     }
     read_status = {};
     forget_exact_rows();
     if (is_for_frame) {
-        device_->collect_recorded();
+        device->collect_recorded();
     } else {
         finish();
     }
@@ -390,11 +390,11 @@ std::uint32_t PairTableBase::size() const noexcept {
 }
 
 std::uint32_t PairTableBase::candidates() const noexcept {
-    return state_->count(&DevicePairs::candidates, state_->candidate_count_);
+    return state_->count(&DevicePairs::candidates, state_->candidate_count);
 }
 
 std::uint32_t PairTableBase::left_to_cpu() const noexcept {
-    return state_->count(&DevicePairs::left_to_cpu, state_->answer_count_);
+    return state_->count(&DevicePairs::left_to_cpu, state_->answer_count);
 }
 
 const Timings& PairTableBase::timings() const noexcept {
@@ -406,7 +406,7 @@ Status PairTableBase::collect(const Limits& limits) {
 }
 
 bool PairTableBase::is_ready() const noexcept {
-    return state_->device_ != nullptr ? state_->device_->is_ready() : state_->is_submitted_;
+    return state_->device != nullptr ? state_->device->is_ready() : state_->is_submitted;
 }
 
 Expected<PairsOnDevice> PairTableBase::on_device() const {
@@ -414,11 +414,11 @@ Expected<PairsOnDevice> PairTableBase::on_device() const {
         if (!table::is_on_device(state_->query)) {
             refuse("on_device", "the table's query does without results that stay on the device");
         }
-        if (state_->device_ == nullptr) {
+        if (state_->device == nullptr) {
             throw StatusException(
                 {StatusCode::not_ready, "on_device: the table was not submitted"});
         }
-        return state_->device_->on_device();
+        return state_->device->on_device();
     });
 }
 
@@ -434,7 +434,7 @@ struct PairTable<Query>::Rows final : State {
     Rows(const Query& query, const PairTableOptions& options) : State(query, options) {}
 
     [[nodiscard]] std::span<const Row> rows() {
-        if (device_ != nullptr) {
+        if (device != nullptr) {
             make_exact();
         }
         return std::span(now_.rows).first(size());
@@ -444,15 +444,15 @@ struct PairTable<Query>::Rows final : State {
             refuse("row", "there is no row " + std::to_string(index) + "; the table has " +
                               std::to_string(size()));
         }
-        return device_ == nullptr || are_exact_ ? now_.rows[index] : exact_row(index);
+        return device == nullptr || are_exact_ ? now_.rows[index] : exact_row(index);
     }
     [[nodiscard]] std::span<const Point> points(const Row& row) {
         if (row.index >= size() || row.point_count == 0) {
             return {};
         }
-        if constexpr (requires { device_->records(0U, points_); }) {
-            if (device_ != nullptr) {
-                device_->records(row.index, points_);
+        if constexpr (requires { device->records(0U, points_); }) {
+            if (device != nullptr) {
+                device->records(row.index, points_);
                 return points_;
             }
         }
@@ -462,8 +462,8 @@ struct PairTable<Query>::Rows final : State {
         if (row.index >= size()) {
             return {};
         }
-        if (device_ != nullptr) {
-            device_->manifold(row.index, manifold_);
+        if (device != nullptr) {
+            device->manifold(row.index, manifold_);
             return manifold_;
         }
         return manifolds_of_rows_[now_.manifolds[row.index]];
@@ -495,7 +495,7 @@ private:
             answer_new_pairs(world, query);
             merge_rows();
         }
-        row_count_ = static_cast<std::uint32_t>(now_.rows.size());
+        row_count = static_cast<std::uint32_t>(now_.rows.size());
     }
 
     void forget_answers() override {
@@ -525,8 +525,8 @@ private:
     /// Of the device.
     [[nodiscard]] Row exact_row(std::uint32_t index) {
         Row row;
-        if constexpr (requires { device_->row(index, row); }) {
-            device_->row(index, row);
+        if constexpr (requires { device->row(index, row); }) {
+            device->row(index, row);
         }
         row.index = index;
         return row;
@@ -563,7 +563,7 @@ private:
         } else {
             list_.update(instances, reach(), !plan::is_symmetric<Query>);
         }
-        candidate_count_ = static_cast<std::uint32_t>(list_.pairs().size());
+        candidate_count = static_cast<std::uint32_t>(list_.pairs().size());
         timings.plan = start.milliseconds();
     }
 
@@ -579,7 +579,7 @@ private:
 
     void answer_list(const char* call, const WorldView& world, const Query& query,
                      const PairTableInput& input) {
-        candidate_count_ = static_cast<std::uint32_t>(input.a.size());
+        candidate_count = static_cast<std::uint32_t>(input.a.size());
         points_of_rows_.clear();
         manifolds_of_rows_.clear();
         answer_pairs(world, query, input.a.size(), [&](std::size_t i) {
@@ -606,7 +606,7 @@ private:
     void answer_pairs(const WorldView& world, const Query& query, std::size_t count,
                       const PairOf& pair_of) {
         const bool is_by_cpu = technique_ == Technique::cpu;
-        answer_count_ = is_by_cpu ? static_cast<std::uint32_t>(count) : 0;
+        answer_count = is_by_cpu ? static_cast<std::uint32_t>(count) : 0;
         if constexpr (requires { table::is_answered_in_place(query); }) {
             if (is_by_cpu && table::is_answered_in_place(query)) {
                 answer_in_place(world.instances, query, count, pair_of);
@@ -810,7 +810,7 @@ Status World::record(PairTableBase& table, const Recording& recording, const Pai
 }
 
 bool World::is_recorded(const PairTableBase& table) const noexcept {
-    const DevicePairs* const device = table.state_->device_.get();
+    const DevicePairs* const device = table.state_->device.get();
     return device != nullptr && device->is_recorded(state_->view());
 }
 

@@ -25,21 +25,21 @@ struct PairTableBase::State {
     /// What the device counts if it finds the pairs, and what answer() did otherwise.
     [[nodiscard]] std::uint32_t count(std::uint32_t (DevicePairs::*of_device)() const,
                                       std::uint32_t of_answer) const {
-        return device_ != nullptr ? ((*device_).*of_device)() : is_submitted_ ? 0 : of_answer;
+        return device != nullptr ? ((*device).*of_device)() : is_submitted ? 0 : of_answer;
     }
-    [[nodiscard]] std::uint32_t size() const { return count(&DevicePairs::size, row_count_); }
+    [[nodiscard]] std::uint32_t size() const { return count(&DevicePairs::size, row_count); }
 
     const AnyQuery query;
     const PairTableOptions options;
     Timings timings;
     Status read_status;
 
-    std::unique_ptr<DevicePairs> device_;  // that finds the pairs; null: answer() does
-    bool is_submitted_ = false;            // to answer(), and not collected
+    std::unique_ptr<DevicePairs> device;  // that finds the pairs; null: answer() does
+    bool is_submitted = false;            // to answer(), and not collected
     // By answer(), at the last update.
-    std::uint32_t row_count_ = 0;
-    std::uint32_t candidate_count_ = 0;
-    std::uint32_t answer_count_ = 0;
+    std::uint32_t row_count = 0;
+    std::uint32_t candidate_count = 0;
+    std::uint32_t answer_count = 0;
 
 protected:
     /// Answers all pairs, or those of a list by any technique.
