@@ -68,7 +68,7 @@ public:
     /// Adds to the plan, and to the result what is known before rendering. An error is stated in
     /// the result and leaves the query without tiles. Throws StatusException (too_large) if the
     /// batch needs more memory than the limit.
-    void plan(plan::CurrentQuery& current, AnyResult& result);
+    void plan(plan::CurrentQuery& current, AnyResult& any);
 
 private:
     void plan(const PenetrationQuery& query, plan::CurrentQuery& current,

@@ -173,7 +173,7 @@ std::string Renderer::print(GraphFormat format) const {
         return text;
     }
     if (drawn_ != nullptr) {
-        add(*drawn_, "drawn tiles");
+        add(*drawn_, "tiles");
     }
     add(computed_, "computed tiles");
     if (last_had_search_) {
