@@ -50,20 +50,11 @@ void Planner::plan_query(const Query& query, const PlanDrawnPoints& plan_drawn,
     }
     if (Status status = add_target(query, current.index); !status.ok()) {
         result.status = std::move(status);
-    } else if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {
-        fields_.plan(query, current, result);
-    } else if constexpr (std::is_same_v<Query, IntersectionQuery>) {
-        overlaps_.plan(query, current, result);
     } else if constexpr (answered_by_cpu_alone<Query> == nullptr) {
-        if constexpr (std::is_same_v<Query, ContactQuery>) {
-            if (query.normals == ContactNormals::gradient) {
-                current.plan.with_gradient_normals.push_back(current.index);
-            }
-        }
-        if (current.planned().technique == Technique::raster) {
-            plan_drawn(current, any);
-        } else if constexpr (!is_left_to_cpu_by_compute<Query>) {
-            searches_.plan(query, current, result);
+        if constexpr (requires { planner_of(query); }) {
+            planner_of(query).plan(query, current, result);
+        } else {
+            plan_points(query, plan_drawn, current, any);
         }
     }
     if (!result.status.ok()) {
@@ -71,6 +62,21 @@ void Planner::plan_query(const Query& query, const PlanDrawnPoints& plan_drawn,
         if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {
             clear_cells(result);
         }
+    }
+}
+
+template <class Query>
+void Planner::plan_points(const Query& query, const PlanDrawnPoints& plan_drawn,
+                          CurrentQuery& current, AnyResult& any) {
+    if constexpr (std::is_same_v<Query, ContactQuery>) {
+        if (query.normals == ContactNormals::gradient) {
+            current.plan.with_gradient_normals.push_back(current.index);
+        }
+    }
+    if (current.planned().technique == Technique::raster) {
+        plan_drawn(current, any);
+    } else if constexpr (!is_left_to_cpu_by_compute<Query>) {
+        searches_.plan(query, current, std::get<typename Query::Result>(any));
     }
 }
 

@@ -44,9 +44,16 @@ private:
     template <class Query>
     void plan_query(const Query& query, const PlanDrawnPoints& plan_drawn, CurrentQuery& current,
                     AnyResult& any);
+    template <class Query>
+    void plan_points(const Query& query, const PlanDrawnPoints& plan_drawn, CurrentQuery& current,
+                     AnyResult& any);
     /// Adds what the query writes to, if the host names it; returns what is wrong with it.
     template <class Query>
     [[nodiscard]] Status add_target(const Query& query, std::uint32_t index);
+    [[nodiscard]] FieldPlanner& planner_of(const DistanceFieldQuery& /*query*/) { return fields_; }
+    [[nodiscard]] OverlapPlanner& planner_of(const IntersectionQuery& /*query*/) {
+        return overlaps_;
+    }
 
     PlanLimits limits_;
     Targets targets_;  // of the batch, as is the next
