@@ -343,6 +343,7 @@ private:
 
 std::vector<std::string_view> world_query_type_names() {
     std::vector<std::string_view> all;
+    all.reserve(std::size(names<WorldQueryType>));
     for (const auto& [text, type] : names<WorldQueryType>) {
         all.push_back(text);
     }
