@@ -36,11 +36,12 @@ check_tidy() {
 # memory access, leak and undefined operation. Tests that run graphs on a device are left out,
 # because drivers leak.
 check_sanitized() {
-    # A program, its tests and how many random cases, if fewer than usual, per line; they run in
-    # parallel, the longest first.
+    # A program and its tests per line; they run in parallel, the longest first.
     local runs=(
-        'worlds/test_worlds -WorldHistory.* 3' 'driver/test_driver HostMemory.*'
-        'worlds/test_worlds WorldHistory.* 40' 'driver/test_driver -HostMemory.*'
+        'driver/test_driver HostDeviceMemory.*' 'driver/test_driver HostMemory.*'
+        'driver/test_driver DeviceQueriesOfDriver.*' 'driver/test_driver FailingCalls.*'
+        'driver/test_driver -HostDeviceMemory.*:HostMemory.*:DeviceQueriesOfDriver.*:FailingCalls.*'
+        'worlds/test_worlds *'
         'test_geometry *' 'test_outline *' 'test_localize *' 'test_simd *' 'test_narrowphase *'
         'test_grid *' 'test_solvers *' 'test_plan *' 'test_graph -GraphExecute.*' 'test_mtv *'
     )
@@ -48,8 +49,7 @@ check_sanitized() {
     build sanitize --target test_driver test_geometry test_outline test_localize test_simd \
         test_narrowphase test_grid test_solvers test_plan test_graph test_mtv test_worlds test_limits test_reload
     printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
-        bash -c 'env ${3:+NEARFIELD_TEST_CASES=$3} "$0/$1" --gtest_brief=1 --gtest_filter="$2"' \
-        "$root/build/sanitize/tests"
+        bash -c '"$0/$1" --gtest_brief=1 --gtest_filter="$2"' "$root/build/sanitize/tests"
     # On a device, so without leak detection: calls that are ended at every stage, and shader reload,
     # which only debug builds have.
     printf '%s\n' limits/test_limits reload/test_reload | ASAN_OPTIONS=detect_leaks=0 \
@@ -64,8 +64,7 @@ check_threads() {
     # TSAN_OPTIONS cannot contain a path with a space.
     (cd "$root" && export TSAN_OPTIONS="suppressions=tests/threads/suppressions.txt halt_on_error=1" &&
         printf '%s\n' 'threads/test_threads *' 'worlds/test_worlds WorldHistory.*' |
-        NEARFIELD_TEST_CASES=40 xargs -P "$jobs" -L 1 \
-            bash -c '"build/threads/tests/$0" --gtest_brief=1 --gtest_filter="$1"')
+        xargs -P "$jobs" -L 1 bash -c '"build/threads/tests/$0" --gtest_brief=1 --gtest_filter="$1"')
 }
 
 # expect_none WHAT LINES: fails and shows the lines if there are any.
