@@ -53,7 +53,7 @@ check_sanitized() {
     # On a device, so without leak detection: calls that are ended at every stage, and shader reload,
     # which only debug builds have.
     printf '%s\n' limits/test_limits reload/test_reload | ASAN_OPTIONS=detect_leaks=0 \
-        xargs -P "$jobs" -I PROGRAM "$root/build/sanitize/tests/PROGRAM" --gtest_brief=1
+        xargs -P "$jobs" -L 1 bash -c '"$0/$1" --gtest_brief=1' "$root/build/sanitize/tests"
 }
 
 # Runs contexts, and histories of worlds, on several threads, with a check of every shared memory
