@@ -76,7 +76,7 @@ void add_fields(const std::string& name, Make make) {
     }
 }
 
-const bool are_added = [] {
+const bool fields_are_added = [] {
     for (const Field& field :
          {Field{"coast, 8,000 vertices", 8000}, Field{"the same with features", 8000, true},
           Field{"1,000 points of it", 8000, false, 1000}, Field{"star, 50 vertices"},

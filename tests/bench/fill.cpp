@@ -46,7 +46,7 @@ void add_input(const std::string& name, const std::vector<Ring>& rings, FillRule
     });
 }
 
-const bool are_added = [] {
+const bool fills_are_added = [] {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> place(0.0, 100.0);
     std::vector<Ring> discs;

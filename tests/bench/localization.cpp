@@ -80,7 +80,7 @@ void measure(State& state, const Settings& settings, double overlap, bool deform
     });
 }
 
-const bool are_added = [] {
+const bool localizations_are_added = [] {
     for (const std::uint32_t height : {0U, 2U, 4U, 6U, 8U, 10U, 12U, 16U}) {
         for (const int percent : {1, 10, 50}) {
             for (const bool deforming : {false, true}) {

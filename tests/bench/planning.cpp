@@ -146,7 +146,7 @@ void add_scene(const std::string& name, Scene (*make)()) {
     add("plan/" + name, 5, [make](State& state) { measure(state, make()); });
 }
 
-const bool are_added = [] {
+const bool plans_are_added = [] {
     add_scene("10,000 pairs, vertices", [] { return pairs(PenetrationPoints::vertices); });
     add_scene("10,000 pairs, boundary points", [] { return pairs(PenetrationPoints::boundary); });
     add_scene("Iceland in Ireland, d = 0.005", [] { return outlines(NEARFIELD_TEST_DATA); });

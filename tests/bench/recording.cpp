@@ -61,7 +61,7 @@ void measure(State& state, Technique technique, PenetrationPoints points) {
     finish();
 }
 
-const bool are_added = [] {
+const bool recordings_are_added = [] {
     for (const bool vertices : {true, false}) {
         for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
             add(std::string("record/1,000 pairs, ") + (vertices ? "vertices/" : "samples/") +

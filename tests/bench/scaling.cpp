@@ -246,7 +246,7 @@ void add_awkward(const std::string& name, Rings (*make)(int size),
     }
 }
 
-const bool are_added = [] {
+const bool sizes_are_added = [] {
     const double half_tooth = 0.25 * 20.0 / (largest / 4);
     add_family("comb in a comb", comb, {{half_tooth, 4.9}, 0.0});
     add_family("saw on a saw", saw, {{0.01, 0.2}, std::numbers::pi});

@@ -175,7 +175,7 @@ Pair pair_of(const Rings& a, const Rings& b) {
             1e-3 * (box_a.max.x - box_a.min.x)};
 }
 
-const bool are_added = [] {
+const bool vectors_are_added = [] {
     struct PaperScene {
         const char* name;
         tools::Scene (*make)(std::size_t scale);

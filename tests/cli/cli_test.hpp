@@ -15,6 +15,9 @@ namespace nearfield::test {
 using Json = nlohmann::json;
 using Arguments = std::vector<std::string>;
 
+/// The difference that numbers have from their texts.
+constexpr double rounding = 1e-9;
+
 [[nodiscard]] Arguments operator+(Arguments first, const Arguments& second);
 
 /// A folder with the unit square in both formats. Its vertices and edges are numbered

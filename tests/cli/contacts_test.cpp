@@ -7,8 +7,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double rounding = 1e-9;
-
 class Contacts : public CliTest {};
 
 TEST_F(Contacts, OfSquaresSideBySide) {

@@ -8,8 +8,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double rounding = 1e-9;
-
 /// Unit squares, B moved by (0.6, 0.3): their intersection is a rectangle of 0.4 by 0.7.
 class Intersection : public CliTest {
 protected:

@@ -8,8 +8,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double rounding = 1e-9;
-
 class Penetration : public CliTest {
 protected:
     [[nodiscard]] Json ask(const std::string& pose_b, const Arguments& options = {}) const {

@@ -22,7 +22,7 @@ constexpr std::uint32_t word_of_pairs = plan::pair_total;
 
 /// How a table is brought up to date.
 /// Where shaders find what they count.
-constexpr std::uint32_t output_binding = 3;
+constexpr std::uint32_t pairs_binding = 3;
 
 enum class Way {
     at_once,
@@ -40,7 +40,7 @@ public:
           way_(way),
           table_(PenetrationQuery{.tolerance = 0.05, .on_device = are_resident()},
                  nearfield::test::on_device) {
-        driver().let_shaders_find({output_binding, pairs_found, word_of_pairs, true});
+        driver().let_shaders_find({pairs_binding, pairs_found, word_of_pairs, true});
         poses_.buffer = driver().make_buffer();
         poses_.size = 1U << 20U;
         poses_.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;

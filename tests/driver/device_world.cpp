@@ -16,10 +16,8 @@ using test_support::errors_of;
 using test_support::FailingAllocations;
 using test_support::MockDriver;
 using test_support::name_of;
-using Step = DeviceWorld::Step;
-
-void try_error(const MakeDeviceWorld& make, Step step, std::string_view call, std::size_t successes,
-               VkResult error) {
+void try_error(const MakeDeviceWorld& make, DeviceWorld::Step step, std::string_view call,
+               std::size_t successes, VkResult error) {
     SCOPED_TRACE(::testing::Message() << "step " << static_cast<int>(step) << ": call " << successes
                                       << " of " << call << " says " << name_of(error));
     const auto asked = make();
@@ -41,7 +39,7 @@ void try_error(const MakeDeviceWorld& make, Step step, std::string_view call, st
     asked->expect_to_leave_nothing();
 }
 
-std::vector<std::string_view> calls_of(const MakeDeviceWorld& make, Step step) {
+std::vector<std::string_view> calls_of(const MakeDeviceWorld& make, DeviceWorld::Step step) {
     const auto asked = make();
     asked->ask_all_before(step);
     asked->driver().forget_calls();
@@ -49,7 +47,7 @@ std::vector<std::string_view> calls_of(const MakeDeviceWorld& make, Step step) {
     return asked->driver().calls();
 }
 
-std::uint64_t allocations_of(const MakeDeviceWorld& make, Step step) {
+std::uint64_t allocations_of(const MakeDeviceWorld& make, DeviceWorld::Step step) {
     const auto asked = make();
     asked->ask_all_before(step);
     const std::uint64_t before = test_support::allocation_count_of_this_thread();
@@ -136,8 +134,8 @@ void DeviceWorld::expect_to_leave_nothing() {
 
 void expect_to_survive_failing_calls(
     const MakeDeviceWorld& make,
-    const std::function<void(Step, std::map<std::string_view, std::size_t>&)>& check) {
-    for (const Step step : DeviceWorld::steps) {
+    const std::function<void(DeviceWorld::Step, std::map<std::string_view, std::size_t>&)>& check) {
+    for (const DeviceWorld::Step step : DeviceWorld::steps) {
         std::map<std::string_view, std::size_t> count;
         for (const std::string_view call : calls_of(make, step)) {
             for (const VkResult error : errors_of(call)) {
@@ -154,7 +152,7 @@ void expect_to_survive_failing_calls(
 
 void expect_to_survive_scarce_memory(const MakeDeviceWorld& make) {
     constexpr std::uint64_t max_tries = 50;  // of a step, spread over all of its allocations
-    for (const Step step : DeviceWorld::steps) {
+    for (const DeviceWorld::Step step : DeviceWorld::steps) {
         const std::uint64_t stride = allocations_of(make, step) / max_tries + 1;
         bool has_failed = true;
         for (std::uint64_t successes = 0; has_failed; successes += stride) {

@@ -65,7 +65,7 @@ protected:
             run(intersection),
             run(field),
             [this, a, b] {
-                World world = *World::create(*context_);
+                nearfield::World world = *nearfield::World::create(*context_);
                 for (const Instance& one : {a, b}) {
                     static_cast<void>(world.add({.shape = one.shape, .pose = one.pose}));
                 }
@@ -73,21 +73,21 @@ protected:
                 return world.update(table);
             },
             [this, a] {
-                World world = *World::create(*context_);
+                nearfield::World world = *nearfield::World::create(*context_);
                 static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
                 const std::vector<Segment> segments(1);
                 std::vector<RayHit> hits(1);
                 return world.cast_rays(segments, hits, {.technique = Technique::compute});
             },
             [this, a] {
-                World world = *World::create(*context_);
+                nearfield::World world = *nearfield::World::create(*context_);
                 static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
                 const std::vector<Vector2> points(1);
                 std::vector<NearestHit> hits(1);
                 return world.find_nearest({}, points, hits, {.technique = Technique::compute});
             },
             [this, a] {
-                World world = *World::create(*context_);
+                nearfield::World world = *nearfield::World::create(*context_);
                 static_cast<void>(world.add({.shape = a.shape, .pose = a.pose}));
                 const std::vector<Pose> poses(1);
                 std::vector<std::uint8_t> meets(1);

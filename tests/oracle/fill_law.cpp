@@ -43,12 +43,12 @@ FillLaw::FillLaw(std::span<const Ring> rings, double unit, FillRule rule,
     }
 }
 
-test::Place FillLaw::placed(const Vector2& point) const {
+test::WholePlace FillLaw::placed(const Vector2& point) const {
     return {std::llround(point.x / unit_), std::llround(point.y / unit_)};
 }
 
 bool FillLaw::is_clear(const Vector2& point, int side) const {
-    const test::Place place = placed(point);
+    const test::WholePlace place = placed(point);
     return asked_.side(place) == side && asked_.distance(place) > radius_;
 }
 
@@ -63,7 +63,7 @@ bool FillLaw::allows(const Vector2& from, double answered, double bound) const {
 }
 
 bool FillLaw::is_on_boundary(const Vector2& point) const {
-    const test::Place place = placed(point);
+    const test::WholePlace place = placed(point);
     return asked_.has_near(place, radius_, 0) && asked_.has_near(place, radius_, 1);
 }
 

@@ -53,7 +53,7 @@ private:
         double length;
     };
 
-    [[nodiscard]] test::Place placed(const Vector2& point) const;
+    [[nodiscard]] test::WholePlace placed(const Vector2& point) const;
     [[nodiscard]] bool is_clear(const Vector2& point, int side) const;
     [[nodiscard]] std::vector<double> parts_to_look_at(const Line& line,
                                                        const Measured& from) const;

@@ -9,7 +9,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 300;
+constexpr std::uint64_t batches_seed = 300;
 
 class Batches : public QueryTest {
 protected:
@@ -19,7 +19,7 @@ protected:
         Batch batch;
     };
     static void fill(Everything& all) {
-        for (Pair& pair : family_pairs(seed)) {
+        for (Pair& pair : family_pairs(batches_seed)) {
             all.pairs.emplace_back(context(), std::move(pair));
             const PlacedPair& placed = all.pairs.back();
             all.batch.add(placed.penetration(PenetrationPoints::boundary));
@@ -37,7 +37,7 @@ protected:
     }
 };
 
-void expect_same(const PenetratingPoint& a, const PenetratingPoint& b) {
+void expect_same_answers(const PenetratingPoint& a, const PenetratingPoint& b) {
     EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.depth, b.depth);
     EXPECT_EQ(a.direction, b.direction);
@@ -48,19 +48,19 @@ void expect_same(const PenetratingPoint& a, const PenetratingPoint& b) {
     EXPECT_EQ(a.unique, b.unique);
 }
 
-void expect_same(const PenetrationResult& a, const PenetrationResult& b) {
+void expect_same_answers(const PenetrationResult& a, const PenetrationResult& b) {
     EXPECT_EQ(a.count, b.count);
     ASSERT_EQ(a.points.size(), b.points.size());
     for (std::size_t i = 0; i < a.points.size() && !testing::Test::HasFailure(); ++i) {
         SCOPED_TRACE("record " + std::to_string(i));
-        expect_same(a.points[i], b.points[i]);
+        expect_same_answers(a.points[i], b.points[i]);
     }
     if (a.count > 0) {
-        expect_same(a.deepest, b.deepest);
+        expect_same_answers(a.deepest, b.deepest);
     }
 }
 
-void expect_same(const IntersectionResult& a, const IntersectionResult& b) {
+void expect_same_answers(const IntersectionResult& a, const IntersectionResult& b) {
     EXPECT_EQ(a.count, b.count);
     EXPECT_EQ(a.area, b.area);
     EXPECT_EQ(a.box.min, b.box.min);
@@ -72,7 +72,7 @@ void expect_same(const IntersectionResult& a, const IntersectionResult& b) {
     }
 }
 
-void expect_same(const DistanceFieldResult& a, const DistanceFieldResult& b) {
+void expect_same_answers(const DistanceFieldResult& a, const DistanceFieldResult& b) {
     EXPECT_EQ(a.origin, b.origin);
     EXPECT_EQ(a.width, b.width);
     EXPECT_EQ(a.height, b.height);
@@ -80,7 +80,7 @@ void expect_same(const DistanceFieldResult& a, const DistanceFieldResult& b) {
 }
 
 /// Expects bitwise identical results.
-void expect_same(const AnyResult& a, const AnyResult& b) {
+void expect_same_answers(const AnyResult& a, const AnyResult& b) {
     ASSERT_EQ(a.index(), b.index());
     std::visit(
         [&]<class Result>(const Result& one) {
@@ -90,7 +90,7 @@ void expect_same(const AnyResult& a, const AnyResult& b) {
             EXPECT_EQ(one.intersects, other.intersects);
             EXPECT_EQ(one.error_bound, other.error_bound);
             EXPECT_EQ(one.regions.size(), other.regions.size());
-            expect_same(one, other);
+            expect_same_answers(one, other);
         },
         a);
 }
@@ -125,7 +125,7 @@ TEST_F(Batches, AnswerEachQueryAsIfAlone) {
                 if constexpr (std::is_same_v<decltype(alone), const DistanceFieldResult>) {
                     expect_alike(std::get<DistanceFieldResult>(together.results[i]), alone);
                 } else {
-                    expect_same(together.results[i], alone);
+                    expect_same_answers(together.results[i], alone);
                 }
             },
             queries[i]);
@@ -144,7 +144,7 @@ TEST_F(Batches, RunTwiceGiveTheSame) {
     ASSERT_EQ(first.results.size(), second.results.size());
     for (std::size_t i = 0; i < first.results.size() && !HasFailure(); ++i) {
         SCOPED_TRACE("query " + std::to_string(i));
-        expect_same(first.results[i], second.results[i]);
+        expect_same_answers(first.results[i], second.results[i]);
     }
     EXPECT_GT(second.timings.total, 0.0);
 }
@@ -154,7 +154,7 @@ TEST_F(Batches, EmptyOnesAreFine) {
     Results results;
     EXPECT_TRUE(context().run(batch, results).ok());
     EXPECT_TRUE(results.results.empty());
-    const PlacedPair pair(context(), family_pairs(seed)[1]);
+    const PlacedPair pair(context(), family_pairs(batches_seed)[1]);
     const auto handle = batch.add(pair.penetration());
     ASSERT_TRUE(context().run(batch, results).ok());
     check_penetration(pair, PenetrationPoints::boundary, results[handle]);
@@ -165,7 +165,7 @@ TEST_F(Batches, EmptyOnesAreFine) {
 
 TEST_F(Batches, OfManySmallPairsHold) {
     constexpr int many = 300;
-    Random random(seed);
+    Random random(batches_seed);
     std::deque<PlacedPair> pairs;
     std::vector<QueryHandle<PenetrationQuery>> handles;
     Batch batch;
@@ -190,7 +190,7 @@ TEST_F(Batches, OfManySmallPairsHold) {
 
 TEST_F(Batches, OneShapeManyTimes) {
     // A shape against itself at several poses and tolerances in one batch.
-    Random random(seed);
+    Random random(batches_seed);
     const PlacedPair pair(
         context(), {{"A", with_holes(random, 4)}, {"B", star(random, 30, 0.6)}, {}, {}, 0.05});
     Batch batch;
@@ -208,7 +208,7 @@ TEST_F(Batches, OneShapeManyTimes) {
     ASSERT_TRUE(context().run(batch, results).ok());
     for (std::size_t i = 0; i < handles.size(); ++i) {
         SCOPED_TRACE(i);
-        expect_same(results[handles[i]], run_alone(context(), queries[i]));
+        expect_same_answers(results[handles[i]], run_alone(context(), queries[i]));
     }
 }
 

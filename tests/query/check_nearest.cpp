@@ -1,5 +1,6 @@
 #include <tests/oracle/plane.hpp>
 #include <tests/query/check_nearest.hpp>
+#include <tests/query/field_laws.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,6 @@ using oracle::ShapeOracle;
 
 double angle_between(const Vector2& a, const Vector2& b) {
     return std::abs(std::atan2(a.x * b.y - a.y * b.x, oracle::dot(a, b)));
-}
-
-double distance_to_feature(const ShapeOracle& shape, const Feature& feature, const Vector2& point) {
-    if (feature.index >= shape.size()) {
-        return std::numeric_limits<double>::infinity();
-    }
-    return feature.kind == Feature::Kind::vertex
-               ? oracle::distance(shape.vertex(feature.index), point)
-               : shape.nearest_on_edge(feature.index, point).distance;
 }
 
 /// The flag must be cleared if another local minimum of the distance is clearly within d/1000 and

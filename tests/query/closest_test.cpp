@@ -9,7 +9,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 2718;
+constexpr std::uint64_t closest_seed = 2718;
 
 /// Pairs that are disjoint more often than any_pair's.
 Pair any_apart_pair(Random& random) {
@@ -45,14 +45,14 @@ protected:
 
 TEST_F(Closest, HoldsForRandomPairs) {
     int apart = 0;
-    for_each_case(seed, 150, [&](Random& random) {
+    for_each_case(closest_seed, 150, [&](Random& random) {
         apart += check(any_apart_pair(random)).intersects ? 0 : 1;
     });
     EXPECT_GT(apart, random_cases(150) / 4);
 }
 
 TEST_F(Closest, HoldsForEveryFamily) {
-    for (Pair& pair : family_pairs(seed)) {
+    for (Pair& pair : family_pairs(closest_seed)) {
         pair.pose_b.translation.x += 15.0;
         check(std::move(pair));
     }
@@ -107,7 +107,7 @@ TEST_F(Closest, OverlappingBoxesAndTouch) {
 }
 
 TEST_F(Closest, FarApartAtASmallTolerance) {
-    Random random(seed);
+    Random random(closest_seed);
     const Rings a = star(random, 40, 0.6);
     const Rings b = star(random, 50, 0.6);
     for (const double far : {1e2, 1e4, 1e6}) {
@@ -117,7 +117,7 @@ TEST_F(Closest, FarApartAtASmallTolerance) {
 }
 
 TEST_F(Closest, ATolerancePastTheShapesLeavesNothingToBeAmbiguous) {
-    Random random(seed);
+    Random random(closest_seed);
     const Rings a = star(random, 600, 0.9);
     const Rings b = scaled_and_moved(star(random, 700, 0.9), 1.0, {3.0, 0.2});
     for (const double tolerance : {1.0, 100.0, 1e6}) {

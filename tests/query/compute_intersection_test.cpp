@@ -13,10 +13,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 4711;
-constexpr IntersectionKind every_kind[] = {IntersectionKind::boundary_boundary,
-                                           IntersectionKind::boundary_volume,
-                                           IntersectionKind::volume_volume};
+constexpr std::uint64_t compute_intersection_seed = 4711;
 
 /// Masks that the device makes from the shapes' own edges, against the oracle.
 class ComputeIntersections : public QueryTest {
@@ -42,7 +39,7 @@ protected:
 };
 
 TEST_F(ComputeIntersections, HoldForManyEdgesInACell) {
-    Random random(seed);
+    Random random(compute_intersection_seed);
     check({{"fine coast", coast(random, 9000, 0.4)},
            {"coarse coast", coast(random, 300, 0.5)},
            {},
@@ -56,7 +53,7 @@ TEST_F(ComputeIntersections, HoldForManyEdgesInACell) {
 }
 
 TEST_F(ComputeIntersections, HoldForHolesAndIslands) {
-    Random random(seed);
+    Random random(compute_intersection_seed);
     for (int i = 0; i < 6; ++i) {
         check({{"holes", with_holes(random, 40)},
                {"parts", several_parts(random, 40)},
@@ -67,7 +64,7 @@ TEST_F(ComputeIntersections, HoldForHolesAndIslands) {
 }
 
 TEST_F(ComputeIntersections, HoldFarFromEveryOrigin) {
-    Random random(seed);
+    Random random(compute_intersection_seed);
     const Rings a = with_holes(random, 20);
     const Rings b = coast(random, 2000, 0.5);
     const Vector2 far{1e6, -2e6};
@@ -96,7 +93,7 @@ TEST_F(ComputeIntersections, HoldOverManyTileBatches) {
     Expected<Context> small =
         Context::create(host_device(), on_demand({.memory_limit = 12U << 20U}));
     ASSERT_TRUE(small.has_value()) << small.error().text();
-    Random random(seed);
+    Random random(compute_intersection_seed);
     check(*small, {{"A", scaled_and_moved(with_holes(random, 5), 10.0, {})},
                    {"B", scaled_and_moved(star(random, 40, 0.6), 10.0, {})},
                    {},
@@ -105,7 +102,7 @@ TEST_F(ComputeIntersections, HoldOverManyTileBatches) {
 }
 
 TEST_F(ComputeIntersections, AreTheSameBitsInEveryRun) {
-    Random random(seed);
+    Random random(compute_intersection_seed);
     const PlacedPair first(context(), any_pair(random), Technique::compute);
     const PlacedPair second(context(),
                             {{"A", coast(random, 3000, 0.5)},
@@ -151,10 +148,10 @@ TEST_F(ComputeIntersections, StayAsTheyAreWhileOtherBatchesAreSubmitted) {
         const Expected<Ticket> ticket = made->submit(batch);
         ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
         if (meanwhile == std::string("another shape")) {
-            Random random(seed);
+            Random random(compute_intersection_seed);
             query.a.shape = *made->add_shape(star(random, 100, 0.5));
         } else if (meanwhile == std::string("a new outline")) {
-            Random random(seed);
+            Random random(compute_intersection_seed);
             ASSERT_TRUE(made->update_shape(query.a.shape, star(random, 100, 0.5)).ok());
         }
         Batch later;

@@ -13,7 +13,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 3141;
+constexpr std::uint64_t compute_seed = 3141;
 
 std::vector<Vector2> points_in(Random& random, const Rectangle& box, int count) {
     std::vector<Vector2> points{box.min, box.max, {box.min.x, box.max.y}};
@@ -68,7 +68,7 @@ protected:
 };
 
 TEST_F(ComputeFields, HoldForRandomShapesAndEveryPart) {
-    for_each_case(seed, 24, [&](Random& random) {
+    for_each_case(compute_seed, 24, [&](Random& random) {
         const AnyField field(context(), random);
         SCOPED_TRACE(field.text());
         DistanceFieldQuery query = field.query();
@@ -90,7 +90,7 @@ TEST_F(ComputeFields, HoldForRandomShapesAndEveryPart) {
 }
 
 TEST_F(ComputeFields, HoldForEveryFamilyAndARealOutline) {
-    for (const auto& [name, rings] : every_family(seed)) {
+    for (const auto& [name, rings] : every_family(compute_seed)) {
         SCOPED_TRACE(name);
         check(rings, 0.02, {{-1.3, -1.2}, {1.2, 1.3}}, false);
         check(rings, 0.08, {{-1.3, -1.2}, {1.2, 1.3}}, true);
@@ -104,7 +104,7 @@ TEST_F(ComputeFields, HoldForDegeneratePolygons) {
     constexpr std::uint32_t cells = 40;
     int checked = 0;
     for (const support::DegeneratePolygon& degenerate :
-         support::degenerate_polygons(cells, cells, seed)) {
+         support::degenerate_polygons(cells, cells, compute_seed)) {
         SCOPED_TRACE(degenerate.name);
         std::vector<Ring> rings;
         for (const auto& ring : degenerate.rings) {
@@ -139,7 +139,7 @@ TEST_F(ComputeFields, HoldWhereABlockHasHundredsOfEdges) {
 }
 
 TEST_F(ComputeFields, HoldForCoastLinesOfEverySize) {
-    Random random(seed);
+    Random random(compute_seed);
     for (const int vertices : {40, 600, 9000}) {
         for (const double roughness : {0.4, 0.8}) {
             check(coast(random, vertices, roughness), 0.013, {{-1.5, -1.4}, {1.4, 1.5}}, false);
@@ -159,7 +159,7 @@ TEST_F(ComputeFields, HoldForCoastLinesOfEverySize) {
 }
 
 TEST_F(ComputeFields, HoldWhateverIsLeftOfTheLastBlock) {
-    Random random(seed);
+    Random random(compute_seed);
     const Rings shape = coast(random, 300, 0.5);
     const double d = 0.01;
     const double cell = d * std::numbers::sqrt2;
@@ -173,7 +173,7 @@ TEST_F(ComputeFields, HoldWhateverIsLeftOfTheLastBlock) {
 }
 
 TEST_F(ComputeFields, HoldFarAwayAndBeyondATile) {
-    Random random(seed);
+    Random random(compute_seed);
     const Rings shape = scaled_and_moved(star(random, 12, 0.3), 20.0, {});
     const double d = 1.0 / (60.0 * std::numbers::sqrt2);
     check(shape, d, {{-20.0, 3.0}, {20.0, 3.05}}, false);
@@ -183,7 +183,7 @@ TEST_F(ComputeFields, HoldFarAwayAndBeyondATile) {
 }
 
 TEST_F(ComputeFields, HoldForTinyAndHugeTolerances) {
-    Random random(seed);
+    Random random(compute_seed);
     const Rings shape = star(random, 40, 0.4);
     check(shape, 1e-5, {{0.5, 0.5}, {0.5005, 0.5008}}, true);
     // Around a vertex of a shape of 10^8 cells.
@@ -224,7 +224,7 @@ TEST_F(ComputeFields, HoldOverManyRounds) {
     Expected<Context> small =
         Context::create(host_device(), on_demand({.memory_limit = 24U << 20U}));
     ASSERT_TRUE(small.has_value()) << small.error().text();
-    Random random(seed);
+    Random random(compute_seed);
     const PlacedShape shape(*small, star(random, 60, 0.4), {});
     DistanceFieldQuery query;
     query.b = shape.instance();
@@ -237,7 +237,7 @@ TEST_F(ComputeFields, HoldOverManyRounds) {
 }
 
 TEST_F(ComputeFields, StandBesideAllOtherQueriesInOneBatch) {
-    Random random(seed);
+    Random random(compute_seed);
     const Pair shapes{
         {"A", star(random, 20, 0.5)}, {"B", star(random, 30, 0.4)}, {}, {{0.4, 0.2}, 0.5}, 0.04};
     std::vector<std::unique_ptr<PlacedPair>> pairs;
@@ -300,7 +300,7 @@ TEST_F(ComputeFields, PointsAfterTheRastersImagesAreGone) {
     // More kinds of batches than cached compiled graphs: images of the first ones are destroyed.
     Expected<Context> made = Context::create(host_device(), on_demand());
     ASSERT_TRUE(made.has_value()) << made.error().text();
-    Random random(seed);
+    Random random(compute_seed);
     const PlacedPair pair(
         *made,
         {{"A", star(random, 9, 0.5)}, {"B", star(random, 9, 0.5)}, {}, {{0.5, 0.2}, 0.0}, 0.05});

@@ -9,7 +9,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 577;
+constexpr std::uint64_t contacts_seed = 577;
 
 class Contacts : public QueryTest {
 protected:
@@ -34,7 +34,7 @@ void expect_near(const Vector2& value, const Vector2& expected) {
 
 TEST_F(Contacts, HoldForRandomPairs) {
     std::size_t found = 0;
-    for_each_case(seed, 120, [&](Random& random) {
+    for_each_case(contacts_seed, 120, [&](Random& random) {
         Pair pair = any_pair(random);
         const double contact_distance = pair.tolerance * random.scale(0.3, 8.0);
         found += check(std::move(pair), contact_distance).count > 0 ? 1U : 0U;
@@ -43,7 +43,7 @@ TEST_F(Contacts, HoldForRandomPairs) {
 }
 
 TEST_F(Contacts, HoldForEveryFamily) {
-    for (const Pair& pair : family_pairs(seed)) {
+    for (const Pair& pair : family_pairs(contacts_seed)) {
         check(pair, 0.5);
     }
 }
@@ -144,7 +144,7 @@ TEST_F(Contacts, NormalsByTheGradientAreThoseOfTheFieldNearWalls) {
 TEST_F(Contacts, NormalsByTheGradientPointOutOfRandomShapes) {
     std::size_t compared = 0;
     std::size_t close = 0;
-    for_each_case(seed, 30, [&](Random& random) {
+    for_each_case(contacts_seed, 30, [&](Random& random) {
         const PlacedPair placed(context(), any_pair(random));
         SCOPED_TRACE(describe(placed.pair()));
         ContactQuery query = placed.contacts(3.0 * placed.tolerance());

@@ -7,7 +7,7 @@ Calls calls;
 
 namespace {
 
-constexpr std::uint64_t seed = 6000;
+constexpr std::uint64_t counted_context_seed = 6000;
 
 template <class Function>
 Function below(const char* name) {
@@ -65,16 +65,6 @@ test_support::Lies counting() {
     return lies;
 }
 
-void expect_answers(const Results& results) {
-    for (std::size_t i = 0; i < results.results.size(); ++i) {
-        std::visit(
-            [&](const auto& result) {
-                EXPECT_TRUE(result.status.ok()) << i << ": " << result.status.text();
-            },
-            results.results[i]);
-    }
-}
-
 Ticket require(const Expected<Ticket>& ticket) {
     EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
     return ticket.has_value() ? *ticket : Ticket{};
@@ -96,7 +86,7 @@ void CountedContext::make(const Settings& settings) {
     Expected<Context> made = Context::create(loader_->host(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
     counted_.emplace(std::move(*made));
-    Random random(seed);
+    Random random(counted_context_seed);
     rings_a_ = coast(random, 120, 0.5);
     rings_b_ = with_holes(random, 3);
     const Expected<ShapeHandle> a = counted_->add_shape(rings_a_);

@@ -8,7 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-struct Circle {
+struct RoundShape {
     Vector2 centre;
     double radius = 0.0;
 };
@@ -18,19 +18,19 @@ double distance(const Vector2& a, const Vector2& b) {
 }
 
 /// The signed distance to a circle, negative inside.
-double signed_distance(const Circle& circle, const Vector2& point) {
+double signed_distance(const RoundShape& circle, const Vector2& point) {
     return distance(circle.centre, point) - circle.radius;
 }
 
 /// The depth of the deepest point of the boundary of `a` in `b`; negative if none is inside.
-double deepest(const Circle& a, const Circle& b) {
+double deepest(const RoundShape& a, const RoundShape& b) {
     return b.radius - std::abs(distance(a.centre, b.centre) - a.radius);
 }
 
 /// Two circles as curves, tessellated with known deviations.
 class Curves : public QueryTest {
 protected:
-    Instance add(const Circle& circle, double deviation) {
+    Instance add(const RoundShape& circle, double deviation) {
         const auto rings = tessellate(CurvePath().circle(circle.centre, circle.radius), deviation);
         EXPECT_TRUE(rings.has_value()) << rings.error().text();
         auto shape = context().add_shape(*rings, deviation);
@@ -53,8 +53,8 @@ TEST_F(Curves, PenetrationOfCirclesIsWithinItsBoundOfTheAnalyticAnswer) {
     for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(random_cases(6)); ++seed) {
         std::mt19937_64 random(seed);
         std::uniform_real_distribution<double> part(0.0, 1.0);
-        const Circle a{{part(random), part(random)}, 1.0 + 2.0 * part(random)};
-        const Circle b{{2.0 + part(random), 1.0 + part(random)}, 2.0 + part(random)};
+        const RoundShape a{{part(random), part(random)}, 1.0 + 2.0 * part(random)};
+        const RoundShape b{{2.0 + part(random), 1.0 + part(random)}, 2.0 + part(random)};
         for (const double share : {0.02, 0.12}) {
             const double d = 0.15;
             PenetrationQuery query;
@@ -77,7 +77,7 @@ TEST_F(Curves, PenetrationOfCirclesIsWithinItsBoundOfTheAnalyticAnswer) {
     }
 }
 
-void check_field(const Circle& circle, const DistanceFieldResult& result) {
+void check_field(const RoundShape& circle, const DistanceFieldResult& result) {
     ASSERT_TRUE(result.status.ok()) << result.status.text();
     EXPECT_LE(result.error_bound, result.tolerance);
     ASSERT_FALSE(result.values.empty());
@@ -92,7 +92,7 @@ void check_field(const Circle& circle, const DistanceFieldResult& result) {
 }
 
 TEST_F(Curves, FieldOfACircleIsWithinItsBoundOfTheAnalyticAnswer) {
-    const Circle circle{{0.3, -0.2}, 2.0};
+    const RoundShape circle{{0.3, -0.2}, 2.0};
     // With the minimum number of sub-pixel bits, a raster needs three quarters of the tolerance
     // plus a margin for rounding, which leaves less than a quarter for the rings (error budget).
     const bool coarse = sub_pixel_bits(host_device()) == 4;
@@ -118,8 +118,8 @@ TEST_F(Curves, FieldOfACircleIsWithinItsBoundOfTheAnalyticAnswer) {
 
 /// Every sample is near the shape it belongs to, and every true point is near a sample.
 TEST_F(Curves, IntersectionsOfCirclesKeepTheirLaw) {
-    const Circle a{{0, 0}, 2.0};
-    const Circle b{{2.6, 0.5}, 1.5};
+    const RoundShape a{{0, 0}, 2.0};
+    const RoundShape b{{2.6, 0.5}, 1.5};
     const double d = 0.2;
     IntersectionQuery query;
     query.technique = Technique::raster;

@@ -8,7 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 26000;
+constexpr std::uint64_t device_pair_contacts_seed = 26000;
 
 /// Contacts of all pairs of a world that the device finds, compared with those of the CPU.
 class DevicePairContacts : public DevicePairsTest {};

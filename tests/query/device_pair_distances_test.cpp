@@ -7,7 +7,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 27000;
+constexpr std::uint64_t device_pair_distances_seed = 27000;
 
 /// The pairs of a world that are near each other, found by the device, compared with those of the
 /// CPU.

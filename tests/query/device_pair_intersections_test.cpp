@@ -8,7 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 25000;
+constexpr std::uint64_t device_pair_intersections_seed = 25000;
 
 /// The pairs of a world that intersect, found by the device, compared with those of the CPU.
 class DevicePairIntersections : public DevicePairsTest {};
@@ -16,7 +16,7 @@ class DevicePairIntersections : public DevicePairsTest {};
 /// Small shapes in all places of large ones with holes and parts: outside, inside, in a hole, and
 /// across a boundary.
 TEST_F(DevicePairIntersections, OfShapesInHolesAreNone) {
-    for_each_case(seed + 1000, 4, [&](Random& random) {
+    for_each_case(device_pair_intersections_seed + 1000, 4, [&](Random& random) {
         std::vector<InstanceHandle> added;
         for (const Rings& rings : {with_holes(random, 5), with_holes(random, 40),
                                    several_parts(random, 4), spiral(2.0, 0.2, 60), pentagram()}) {
@@ -139,7 +139,7 @@ TEST_F(DevicePairIntersections, WithinTheRoundingOfTheirPlacesTouch) {
 
 /// Boundaries whose boxes do not tell their edges apart.
 TEST_F(DevicePairIntersections, OfTangles) {
-    for_each_case(seed + 4000, 3, [&](Random& random) {
+    for_each_case(device_pair_intersections_seed + 4000, 3, [&](Random& random) {
         std::vector<InstanceHandle> added;
         for (const int n : {30, 300, 3000}) {
             const ShapeHandle shape = add_shape(tangle(random, n));

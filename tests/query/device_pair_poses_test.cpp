@@ -9,7 +9,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 27000;
+constexpr std::uint64_t device_pair_poses_seed = 27000;
 
 /// Tables of pairs at poses that commands of the host write.
 class DevicePairPoses : public DevicePosesTest {
@@ -80,14 +80,14 @@ protected:
 };
 
 TEST_F(DevicePairPoses, GiveTheRowsOfTheSamePosesOfTheWorld) {
-    Random shapes(seed);
+    Random shapes(device_pair_poses_seed);
     add_some(shapes, 2);
     const auto compare_all = [&]<class Query>(const Query& query, const auto&... reach) {
         PairTable<Query> table(query, within((0.0 + ... + reach), on_device));
         PairTable<Query> cpu(query, within((0.0 + ... + reach), on_cpu));
         std::vector<PoseBuffer> buffers{make_buffer(), make_buffer(28, 256)};
         buffers[1].poses().origin = {3e4, -1e4};
-        for_each_case(seed, 4, [&](Random& random) {
+        for_each_case(device_pair_poses_seed, 4, [&](Random& random) {
             for (PoseBuffer& buffer : buffers) {
                 ASSERT_NO_FATAL_FAILURE(compare(table, cpu, buffer, any_poses(random)));
             }
@@ -114,7 +114,7 @@ TEST_F(DevicePairPoses, TellWhatTouchesFromWhatDoesNot) {
         PairTable cpu(IntersectionTestQuery{}, on_cpu);
         PoseBuffer buffer = make_buffer();
         rows_ = 0;
-        for_each_case(seed, 12, [&](Random& random) {
+        for_each_case(device_pair_poses_seed, 12, [&](Random& random) {
             std::vector<HostPose> poses(60);
             for (std::size_t i = 0; i < 60; i += 2) {
                 const double angle = random.between(-4.0, 4.0);

@@ -13,7 +13,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 28000;
+constexpr std::uint64_t device_pair_residents_seed = 28000;
 
 /// What tables of pairs leave on the device, compared with their exact rows.
 class DevicePairResidents : public DevicePairsOfHostTest {
@@ -183,7 +183,7 @@ protected:
 };
 
 TEST_F(DevicePairResidents, ArePenetrationsAsTheDeviceFindsThem) {
-    for_each_case(seed, 3, [&](Random& random) {
+    for_each_case(device_pair_residents_seed, 3, [&](Random& random) {
         for (const PenetrationPoints points :
              {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
             PairTable table(PenetrationQuery{.tolerance = 0.02,
@@ -200,7 +200,7 @@ TEST_F(DevicePairResidents, ArePenetrationsAsTheDeviceFindsThem) {
 }
 
 TEST_F(DevicePairResidents, AreContactsAsTheDeviceFindsThem) {
-    for_each_case(seed, 3, [&](Random& random) {
+    for_each_case(device_pair_residents_seed, 3, [&](Random& random) {
         PairTable table(
             ContactQuery{.tolerance = 0.02, .contact_distance = 0.05, .on_device = true},
             on_device);

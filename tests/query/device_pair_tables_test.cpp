@@ -11,11 +11,11 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 24000;
+constexpr std::uint64_t device_pair_tables_seed = 24000;
 
 /// A query, and the reach of its table.
 template <class Query>
-struct Asked {
+struct AskedTable {
     Query query;
     double reach = 0.0;
 };
@@ -31,13 +31,13 @@ struct Kind<PenetrationQuery> {
     static constexpr double smallest_far = 1.0;
     static constexpr bool is_mostly_decided = false;
 
-    static std::vector<Asked<PenetrationQuery>> any(Random& random, double size) {
+    static std::vector<AskedTable<PenetrationQuery>> any(Random& random, double size) {
         const double tolerance = size * random.scale(1e-3, 0.1);
         return {{{.tolerance = tolerance, .points = PenetrationPoints::vertices}},
                 {{.tolerance = tolerance, .points = PenetrationPoints::boundary}}};
     }
-    static Asked<PenetrationQuery> far(double size) { return {{.tolerance = 0.01 * size}}; }
-    static Asked<PenetrationQuery> close() {
+    static AskedTable<PenetrationQuery> far(double size) { return {{.tolerance = 0.01 * size}}; }
+    static AskedTable<PenetrationQuery> close() {
         return {{.tolerance = 1e-5, .points = PenetrationPoints::vertices}};
     }
 };
@@ -49,15 +49,15 @@ struct Kind<ContactQuery> {
     static constexpr double smallest_far = 1.0;
     static constexpr bool is_mostly_decided = false;
 
-    static std::vector<Asked<ContactQuery>> any(Random& random, double size) {
+    static std::vector<AskedTable<ContactQuery>> any(Random& random, double size) {
         const double tolerance = size * random.scale(3e-3, 0.1);
         return {
             {{.tolerance = tolerance, .contact_distance = tolerance * random.scale(0.2, 20.0)}}};
     }
-    static Asked<ContactQuery> far(double size) {
+    static AskedTable<ContactQuery> far(double size) {
         return {{.tolerance = 0.02 * size, .contact_distance = 0.05 * size}};
     }
-    static Asked<ContactQuery> close() {
+    static AskedTable<ContactQuery> close() {
         return {{.tolerance = 0.05, .contact_distance = 1.0 / 3.0}};
     }
 };
@@ -69,11 +69,11 @@ struct Kind<IntersectionTestQuery> {
     static constexpr double smallest_far = 1e-6;
     static constexpr bool is_mostly_decided = true;
 
-    static std::vector<Asked<IntersectionTestQuery>> any(Random& /*random*/, double /*size*/) {
+    static std::vector<AskedTable<IntersectionTestQuery>> any(Random& /*random*/, double /*size*/) {
         return {{}};
     }
-    static Asked<IntersectionTestQuery> far(double /*size*/) { return {}; }
-    static Asked<IntersectionTestQuery> close() { return {}; }
+    static AskedTable<IntersectionTestQuery> far(double /*size*/) { return {}; }
+    static AskedTable<IntersectionTestQuery> close() { return {}; }
 };
 
 /// Of queries whose answer is a distance.
@@ -84,15 +84,15 @@ struct KindOfDistance {
     static constexpr double smallest_far = 1e-5;
     static constexpr bool is_mostly_decided = true;
 
-    static std::vector<Asked<Query>> any(Random& random, double size) {
+    static std::vector<AskedTable<Query>> any(Random& random, double size) {
         const Query query{.tolerance = 0.01 * size};
         return {{query, 0.0},
                 {query, 1e-3 * size},
                 {query, size},
                 {query, size * random.scale(0.01, 5.0)}};
     }
-    static Asked<Query> far(double size) { return {{.tolerance = 0.01 * size}, 0.3 * size}; }
-    static Asked<Query> close() { return {{.tolerance = 0.01}, 1.0 / 3.0}; }
+    static AskedTable<Query> far(double size) { return {{.tolerance = 0.01 * size}, 0.3 * size}; }
+    static AskedTable<Query> close() { return {{.tolerance = 0.01}, 1.0 / 3.0}; }
 };
 template <>
 struct Kind<SeparationQuery> : KindOfDistance<SeparationQuery> {};
@@ -102,7 +102,7 @@ struct Kind<ClosestPointQuery> : KindOfDistance<ClosestPointQuery> {};
 template <class Query>
 class DevicePairTables : public DevicePairsTest {
 protected:
-    static Tables<Query> tables_of(const Asked<Query>& asked) {
+    static Tables<Query> tables_of(const AskedTable<Query>& asked) {
         return Tables<Query>(asked.query, asked.reach);
     }
     /// Squares that overlap or touch, of which some pairs are the CPU's.
@@ -120,7 +120,7 @@ TYPED_TEST_SUITE(DevicePairTables, Queries);
 
 TYPED_TEST(DevicePairTables, AreThoseOfTheCpu) {
     using Kind = Kind<TypeParam>;
-    for_each_case(seed, Kind::cases, [&](Random& random) {
+    for_each_case(device_pair_tables_seed, Kind::cases, [&](Random& random) {
         std::vector<InstanceHandle> added;
         std::vector<Rings> shapes = some_shapes(random);
         for (int i = Kind::is_mostly_decided ? 8 : 0; i > 0; --i) {
@@ -132,7 +132,7 @@ TYPED_TEST(DevicePairTables, AreThoseOfTheCpu) {
                 added.push_back(this->add(shape, this->any_pose(random, 5.0)));
             }
         }
-        for (const Asked<TypeParam>& asked : Kind::any(random, 1.0)) {
+        for (const AskedTable<TypeParam>& asked : Kind::any(random, 1.0)) {
             Tables<TypeParam> tables = this->tables_of(asked);
             this->compare(tables);
             EXPECT_GT(tables.device.size(), 10U);
@@ -145,7 +145,7 @@ TYPED_TEST(DevicePairTables, AreThoseOfTheCpu) {
 }
 
 TYPED_TEST(DevicePairTables, DoNotShowTheirHistory) {
-    for_each_case(seed + 1000, 2, [&](Random& random) {
+    for_each_case(device_pair_tables_seed + 1000, 2, [&](Random& random) {
         Tables<TypeParam> tables = this->tables_of(Kind<TypeParam>::any(random, 1.0).front());
         this->run_history(random, {.steps = 10, .instances = 130, .extent = 25.0},
                           [&] { this->compare(tables); });
@@ -154,7 +154,7 @@ TYPED_TEST(DevicePairTables, DoNotShowTheirHistory) {
 
 TYPED_TEST(DevicePairTables, FarFromTheOrigin) {
     using Kind = Kind<TypeParam>;
-    for_each_case(seed + 2000, Kind::far_cases, [&](Random& random) {
+    for_each_case(device_pair_tables_seed + 2000, Kind::far_cases, [&](Random& random) {
         std::vector<InstanceHandle> added;
         const double size = random.scale(Kind::smallest_far, 1.0);
         for (const Rings& rings : some_shapes(random)) {
@@ -176,7 +176,7 @@ TYPED_TEST(DevicePairTables, FarFromTheOrigin) {
 TYPED_TEST(DevicePairTables, OfTheSmallestAndLargestShapes) {
     for (const double size : {1e-18, 1e-12, 1e-9, 1e-4, 1e4, 1e11}) {
         SCOPED_TRACE("size " + std::to_string(size));
-        Random random(seed + 3000);
+        Random random(device_pair_tables_seed + 3000);
         std::vector<InstanceHandle> added;
         for (int i = 0; i < 4; ++i) {
             const ShapeHandle shape =
@@ -194,7 +194,7 @@ TYPED_TEST(DevicePairTables, OfTheSmallestAndLargestShapes) {
 
 /// Sizes whose ratio is far from 1, side by side.
 TYPED_TEST(DevicePairTables, OfTheSmallestBesideTheLargestShapes) {
-    Random random(seed + 4000);
+    Random random(device_pair_tables_seed + 4000);
     for (const double size : {1e-18, 1e-9, 1e-4, 1.0, 1e4, 1e11}) {
         const ShapeHandle shape = this->add_shape(scaled_and_moved(star(random, 9, 0.5), size, {}));
         const ShapeHandle holes =
@@ -234,14 +234,14 @@ TYPED_TEST(DevicePairTables, CutByLimitsAreNone) {
 /// The order of the rows and every bit of them are the same in each run, and whether a row is read
 /// by itself or with all others.
 TYPED_TEST(DevicePairTables, AreTheSameInEachRun) {
-    Random random(seed + 5000);
+    Random random(device_pair_tables_seed + 5000);
     for (const Rings& rings : some_shapes(random)) {
         const ShapeHandle shape = this->add_shape(rings);
         for (int i = 0; i < 8; ++i) {
             this->add(shape, this->any_pose(random, 8.0));
         }
     }
-    const Asked<TypeParam> asked = Kind<TypeParam>::far(1.0);
+    const AskedTable<TypeParam> asked = Kind<TypeParam>::far(1.0);
     PairTable<TypeParam> first(asked.query, within(asked.reach, on_device));
     ASSERT_TRUE(this->world().update(first).ok());
     EXPECT_GT(first.size(), 10U);

@@ -11,14 +11,14 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 24000;
+constexpr std::uint64_t device_pairs_seed = 24000;
 
 /// Penetrations of all pairs of a world that the device finds, compared with those of the CPU.
 class DevicePairs : public DevicePairsTest {};
 
 /// More instances than three levels of boxes hold, sizes from 1/1000 to 10, and one below them all.
 TEST_F(DevicePairs, OfManyInstancesOfAllSizes) {
-    Random random(seed + 2000);
+    Random random(device_pairs_seed + 2000);
     std::vector<ShapeHandle> shapes;
     for (const double size : {0.001, 0.01, 0.1, 1.0}) {
         shapes.push_back(add_shape(scaled_and_moved(star(random, 12, 0.5), size, {0.0, 0.0})));
@@ -164,7 +164,7 @@ TEST_F(DevicePairs, FollowAShapeThatDeforms) {
 
 /// Pairs of the caller's own list: any, some twice, some of an instance with itself.
 TEST_F(DevicePairs, OfAListAreThoseOfTheCpu) {
-    Random random(seed + 6000);
+    Random random(device_pairs_seed + 6000);
     std::vector<InstanceHandle> instances;
     for (const Rings& rings : some_shapes(random)) {
         instances.push_back(add(add_shape(rings), any_pose(random, 1.0)));

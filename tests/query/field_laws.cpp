@@ -86,6 +86,9 @@ void for_cells(const DistanceFieldResult& result, std::size_t most, Check&& chec
 }  // namespace
 
 double distance_to_feature(const oracle::ShapeOracle& b, Feature feature, const Vector2& point) {
+    if (feature.index >= b.size()) {
+        return infinity;
+    }
     return feature.kind == Feature::Kind::vertex ? oracle::distance(b.vertex(feature.index), point)
                                                  : b.nearest_on_edge(feature.index, point).distance;
 }

@@ -10,7 +10,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 2718;
+constexpr std::uint64_t field_lists_seed = 2718;
 
 /// Devices that run on the CPU list the edges near each block by one thread, others by workgroups.
 /// Here the device claims to be of the other kind, and both ways have to give the same fields.
@@ -101,7 +101,7 @@ private:
 };
 
 TEST_F(FieldLists, OfRandomShapes) {
-    for_each_case(seed, 20, [&](Random& random) {
+    for_each_case(field_lists_seed, 20, [&](Random& random) {
         const Pair pair = any_pair(random);
         const Rectangle box = oracle::ShapeOracle(pair.b.rings, pair.pose_b).box();
         const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
@@ -115,14 +115,14 @@ TEST_F(FieldLists, OfRandomShapes) {
 }
 
 TEST_F(FieldLists, OfEveryFamilyAndDegenerateShapes) {
-    for (const auto& [name, rings] : every_family(seed)) {
+    for (const auto& [name, rings] : every_family(field_lists_seed)) {
         SCOPED_TRACE(name);
         check(rings, {{1e6, -1e6}, 0.4}, 0.02, {{1e6 - 1.3, -1e6 - 1.2}, {1e6 + 1.2, -1e6 + 1.3}},
               false);
         check(rings, {}, 0.06, {{-1.3, -1.2}, {1.2, 1.3}}, true);
     }
     constexpr std::uint32_t cells = 40;
-    for (const auto& [name, rings] : degenerate_shapes(context(), cells, seed)) {
+    for (const auto& [name, rings] : degenerate_shapes(context(), cells, field_lists_seed)) {
         SCOPED_TRACE(name);
         check(rings, {}, 1.0 / std::numbers::sqrt2, {{0, 0}, {cells, cells}}, true);
     }
@@ -130,7 +130,7 @@ TEST_F(FieldLists, OfEveryFamilyAndDegenerateShapes) {
 
 /// Of several levels of boxes, and several rounds of each list.
 TEST_F(FieldLists, OfLargeShapes) {
-    Random random(seed);
+    Random random(field_lists_seed);
     for (const int vertices : {600, 9000, 60000}) {
         check(coast(random, vertices, 0.6), {}, 0.01, {{-1.5, -1.4}, {1.4, 1.5}}, false);
     }
@@ -139,7 +139,7 @@ TEST_F(FieldLists, OfLargeShapes) {
 }
 
 TEST_F(FieldLists, AreTheSameEveryTime) {
-    Random random(seed);
+    Random random(field_lists_seed);
     check_repeats(coast(random, 6000, 0.5), 0.01, false);
     check_repeats(coast(random, 2000, 0.5), 0.03, true);
     check_repeats(star(random, 50, 0.4), 0.02, true);
@@ -181,7 +181,7 @@ TEST_F(FieldLists, OfManyRings) {
 }
 
 TEST_F(FieldLists, WhateverIsLeftOfTheLastBlock) {
-    Random random(seed);
+    Random random(field_lists_seed);
     const Rings shape = coast(random, 300, 0.5);
     const double d = 0.01;
     const double cell = d * std::numbers::sqrt2;

@@ -8,7 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 90210;
+constexpr std::uint64_t field_seed = 90210;
 
 class Field : public QueryTest {
 protected:
@@ -94,7 +94,7 @@ protected:
 };
 
 TEST_F(Field, HoldsForRandomShapes) {
-    for_each_case(seed, 120, [&](Random& random) {
+    for_each_case(field_seed, 120, [&](Random& random) {
         const Pair pair = any_pair(random);
         const Rectangle box = oracle::ShapeOracle(pair.b.rings, pair.pose_b).box();
         const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
@@ -107,7 +107,7 @@ TEST_F(Field, HoldsForRandomShapes) {
 }
 
 TEST_F(Field, HoldsForEveryFamily) {
-    for (const auto& [name, rings] : every_family(seed)) {
+    for (const auto& [name, rings] : every_family(field_seed)) {
         SCOPED_TRACE(name);
         check(rings, {{0.5, -0.25}, 0.9}, 0.02, {{-1.0, -1.5}, {2.0, 1.0}});
     }
@@ -129,9 +129,9 @@ TEST_F(Field, HoldsWhereBoundariesTurnBack) {
 TEST_F(Field, CoversWhatTheBoxesShare) {
     const int cases = random_cases(60);
     for (int i = 0; i < cases; ++i) {
-        Random random(seed + 100 + static_cast<std::uint64_t>(i));
+        Random random(field_seed + 100 + static_cast<std::uint64_t>(i));
         const PlacedPair pair(context(), any_pair(random));
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i) + '\n' +
+        SCOPED_TRACE("seed " + std::to_string(field_seed) + " case " + std::to_string(i) + '\n' +
                      describe(pair.pair()));
         DistanceFieldQuery query;
         query.technique = Technique::raster;
@@ -161,7 +161,7 @@ TEST_F(Field, CoversWhatTheBoxesShare) {
 }
 
 TEST_F(Field, RectanglesLargerThanATileHold) {
-    Random random(seed);
+    Random random(field_seed);
     const Rings shape = scaled_and_moved(star(random, 12, 0.3), 20.0, {});
     const double d = 1.0 / (150.0 * std::numbers::sqrt2);  // 150 cells per unit
     const auto wide = check(shape, {}, d, {{-20.0, 3.0}, {20.0, 3.05}});
@@ -171,7 +171,7 @@ TEST_F(Field, RectanglesLargerThanATileHold) {
 }
 
 TEST_F(Field, TinyAndHugeTolerancesHold) {
-    Random random(seed);
+    Random random(field_seed);
     const Rings shape = star(random, 40, 0.4);
     const auto one = check(shape, {}, 100.0, {{-1, -1}, {1, 1}});
     EXPECT_EQ(one.values.size(), 1U);
@@ -191,7 +191,7 @@ TEST_F(Field, TinyAndHugeTolerancesHold) {
 
 /// Beside edges of millions of cells, at their vertices and in between.
 TEST_F(Field, HoldsBesideLongEdges) {
-    for_each_case(seed + 700, 4, [&](Random& random) {
+    for_each_case(field_seed + 700, 4, [&](Random& random) {
         const Rings rings = star(random, 5, 0.5);
         const Expected<ShapeHandle> shape = context().add_shape(rings);
         ASSERT_TRUE(shape.has_value()) << shape.error().text();
@@ -253,7 +253,7 @@ TEST_F(Field, GradientsAtCornersPointOut) {
 /// The CPU's answer does not depend on the query's options: with features it measures to the
 /// shape's own edges, with differences over a larger grid.
 TEST_F(Field, OfTheCpuSaysTheSameHoweverItIsAsked) {
-    Random random(seed);
+    Random random(field_seed);
     const Rings rings = coast(random, 2000, 0.5);
     const oracle::ShapeOracle oracle(rings, {});
     const ShapeHandle shape = *context().add_shape(rings);

@@ -17,7 +17,7 @@ using oracle::FillLaw;
 using oracle::Measured;
 using oracle::ShapeOracle;
 
-constexpr std::uint64_t seed = 20'000;
+constexpr std::uint64_t filled_shapes_seed = 20'000;
 
 double gap_between(const Edge& a, const Edge& b) {
     const ShapeOracle of_a(std::vector<Ring>{{a.from, a.to}});
@@ -117,7 +117,7 @@ protected:
     static void for_each_pair(int usual, const Check& check) {
         int checked = 0;
         std::uint64_t number = 0;
-        for_each_case(seed, usual, [&](Random& random) {
+        for_each_case(filled_shapes_seed, usual, [&](Random& random) {
             const std::uint64_t from = static_cast<std::uint64_t>(first_case());
             FilledPair pair(context(), random, from + number++);
             if (pair.size == 0.0 || HasFailure()) {

@@ -11,7 +11,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 31337;
+constexpr std::uint64_t gradient_seed = 31337;
 
 class Gradients : public FieldLaws {
 protected:
@@ -42,8 +42,8 @@ protected:
 TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForRandomShapes) {
     const int cases = random_cases(60);
     for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + static_cast<std::uint64_t>(i));
+        SCOPED_TRACE("seed " + std::to_string(gradient_seed) + " case " + std::to_string(i));
+        Random random(gradient_seed + static_cast<std::uint64_t>(i));
         const AnyField field(context(), random);
         DistanceFieldQuery query = field.query();
         query.features = query.gradients = true;
@@ -56,7 +56,7 @@ TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForRandomShapes) {
 }
 
 TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForEveryFamily) {
-    for (const auto& [name, rings] : every_family(seed)) {
+    for (const auto& [name, rings] : every_family(gradient_seed)) {
         SCOPED_TRACE(name);
         const PlacedShape shape(context(), rings, {{0.5, -0.25}, 0.9});
         DistanceFieldQuery query;
@@ -73,8 +73,8 @@ TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForEveryFamily) {
 TEST_F(Gradients, CentralDifferencesHoldAndBlendingAgrees) {
     const int cases = random_cases(40);
     for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + 1000 + static_cast<std::uint64_t>(i));
+        SCOPED_TRACE("seed " + std::to_string(gradient_seed) + " case " + std::to_string(i));
+        Random random(gradient_seed + 1000 + static_cast<std::uint64_t>(i));
         const AnyField field(context(), random);
         SCOPED_TRACE(field.text());
         DistanceFieldQuery query = field.query();
@@ -107,7 +107,7 @@ TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
     const test_support::FakeLoader loader(host_device(), std::move(lies));
     Expected<Context> half = Context::create(loader.host(), on_demand());
     ASSERT_TRUE(half.has_value()) << half.error().text();
-    Random random(seed);
+    Random random(gradient_seed);
     const Rings rings = star(random, 30, 0.4);
     const PlacedShape shape(*half, rings, {});
     DistanceFieldQuery query;
@@ -134,7 +134,7 @@ TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
 }
 
 TEST_F(Gradients, SinglePrecisionCostsNearlyNothing) {
-    Random random(seed);
+    Random random(gradient_seed);
     const PlacedShape shape(context(), star(random, 30, 0.4), {});
     DistanceFieldQuery query;
     query.technique = Technique::raster;
@@ -155,7 +155,7 @@ TEST_F(Gradients, SinglePrecisionCostsNearlyNothing) {
 
 /// Several tiles and tile batches: no seams.
 TEST_F(Gradients, HoldAcrossTilesAndRounds) {
-    Random random(seed + 7);
+    Random random(gradient_seed + 7);
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;  // a small atlas
     Expected<Context> small = Context::create(host_device(), on_demand(settings));
@@ -202,8 +202,8 @@ TEST_F(Gradients, OnTheBoundaryAreTheWall) {
 TEST_F(Gradients, FollowRigidMotions) {
     const int cases = random_cases(30);
     for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + 2000 + static_cast<std::uint64_t>(i));
+        SCOPED_TRACE("seed " + std::to_string(gradient_seed) + " case " + std::to_string(i));
+        Random random(gradient_seed + 2000 + static_cast<std::uint64_t>(i));
         const Rings rings = any_shape(random).rings;
         const Pose motion{{random.between(-50.0, 50.0), random.between(-50.0, 50.0)},
                           random.between(-3.0, 3.0)};

@@ -168,7 +168,7 @@ Pair apart(Random& random) {
     return pair;
 }
 
-Rectangle box_of(const Pair& pair) {
+Rectangle box_of_pair(const Pair& pair) {
     const Rectangle a = oracle::ShapeOracle(pair.a.rings, pair.pose_a).box();
     const Rectangle b = oracle::ShapeOracle(pair.b.rings, pair.pose_b).box();
     return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
@@ -236,7 +236,7 @@ std::vector<Pair> in_a_row(std::vector<Pair> pairs, double tolerance, const Vect
     for (Pair& pair : pairs) {
         pair = scaled(std::move(pair), tolerance / pair.tolerance);
         pair.tolerance = tolerance;
-        const Rectangle box = box_of(pair);
+        const Rectangle box = box_of_pair(pair);
         const Vector2 by{x - box.min.x, origin.y - box.min.y};
         for (Pose* pose : {&pair.pose_a, &pair.pose_b}) {
             pose->translation = {pose->translation.x + by.x, pose->translation.y + by.y};

@@ -9,22 +9,12 @@ namespace {
 
 using test_support::HostFrames;
 
-constexpr std::uint64_t seed = 8000;
-
-void expect_answers(const Results& results) {
-    for (std::size_t i = 0; i < results.results.size(); ++i) {
-        std::visit(
-            [&](const auto& result) {
-                EXPECT_TRUE(result.status.ok()) << i << ": " << result.status.text();
-            },
-            results.results[i]);
-    }
-}
+constexpr std::uint64_t host_table_seed = 8000;
 
 }  // namespace
 
 Scene::Scene(Context& owner) : context(&owner) {
-    Random random(seed);
+    Random random(host_table_seed);
     const Expected<ShapeHandle> first = owner.add_shape(coast(random, 100, 0.5));
     const Expected<ShapeHandle> second = owner.add_shape(with_holes(random, 3));
     EXPECT_TRUE(first.has_value() && second.has_value());

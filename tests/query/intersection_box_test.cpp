@@ -6,15 +6,6 @@
 namespace nearfield::test {
 namespace {
 
-Rectangle box_of(const std::vector<IntersectionSample>& samples) {
-    Rectangle box{samples[0].position, samples[0].position};
-    for (const IntersectionSample& sample : samples) {
-        box.min = {std::min(box.min.x, sample.position.x), std::min(box.min.y, sample.position.y)};
-        box.max = {std::max(box.max.x, sample.position.x), std::max(box.max.y, sample.position.y)};
-    }
-    return box;
-}
-
 class IntersectionBox : public QueryTest {};
 
 TEST_F(IntersectionBox, IsThatOfTheSamplesWithThemAndWithout) {

@@ -9,10 +9,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 815;
-constexpr IntersectionKind every_kind[] = {IntersectionKind::boundary_boundary,
-                                           IntersectionKind::boundary_volume,
-                                           IntersectionKind::volume_volume};
+constexpr std::uint64_t intersection_seed = 815;
 
 class Intersection : public QueryTest {
 protected:
@@ -30,17 +27,17 @@ protected:
 };
 
 TEST_F(Intersection, HoldsForRandomPairs) {
-    for_each_case(seed, 80, [&](Random& random) { check(any_pair(random)); });
+    for_each_case(intersection_seed, 80, [&](Random& random) { check(any_pair(random)); });
 }
 
 TEST_F(Intersection, HoldsForEveryFamily) {
-    for (Pair& pair : family_pairs(seed)) {
+    for (Pair& pair : family_pairs(intersection_seed)) {
         check(std::move(pair));
     }
 }
 
 TEST_F(Intersection, HoldsForIdenticalCopiesAndSharedEdges) {
-    Random random(seed);
+    Random random(intersection_seed);
     const NamedRings shape{"star", star(random, 60, 0.5)};
     check({shape, shape, {}, {}, 0.02});
     const NamedRings left{"left", rectangle({-2, -1}, {0, 1})};
@@ -50,7 +47,7 @@ TEST_F(Intersection, HoldsForIdenticalCopiesAndSharedEdges) {
 }
 
 TEST_F(Intersection, HoldsAtExtremeScales) {
-    Random random(seed);
+    Random random(intersection_seed);
     const Rings a = with_holes(random, 6);
     const Rings b = scaled_and_moved(coast(random, 400, 0.5), 1.2, {0.6, -0.3});
     for (const double factor : {1e-12, 1e-6, 1e6, 1e11}) {
@@ -63,7 +60,7 @@ TEST_F(Intersection, HoldsAtExtremeScales) {
 }
 
 TEST_F(Intersection, AreaConvergesUnderRefinement) {
-    Random random(seed);
+    Random random(intersection_seed);
     for (int i = 0; i < 6; ++i) {
         SCOPED_TRACE("case " + std::to_string(i));
         Pair pair{{"A", with_holes(random, 5)},
@@ -99,7 +96,7 @@ TEST_F(Intersection, NamesAnEdgeNearbyOnARunOfCollinearOnes) {
 }
 
 TEST_F(Intersection, IsSymmetricUpToTheBound) {
-    for (const Pair& pair : family_pairs(seed + 3)) {
+    for (const Pair& pair : family_pairs(intersection_seed + 3)) {
         const PlacedPair one(context(), pair);
         const PlacedPair other(context(), {pair.b, pair.a, pair.pose_b, pair.pose_a, 0.15});
         SCOPED_TRACE(describe(pair));
@@ -121,7 +118,7 @@ TEST_F(Intersection, IsSymmetricUpToTheBound) {
 }
 
 TEST_F(Intersection, SummaryIsTheSameWithoutSamples) {
-    for (const Pair& pair : family_pairs(seed + 4)) {
+    for (const Pair& pair : family_pairs(intersection_seed + 4)) {
         const PlacedPair placed(context(), pair);
         SCOPED_TRACE(describe(pair));
         for (const IntersectionKind kind : every_kind) {

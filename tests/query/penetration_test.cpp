@@ -9,9 +9,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 4711;
-constexpr PenetrationPoints both_ways[] = {PenetrationPoints::boundary,
-                                           PenetrationPoints::vertices};
+constexpr std::uint64_t penetration_seed = 4711;
 
 class Penetration : public QueryTest {
 protected:
@@ -30,11 +28,11 @@ protected:
 };
 
 TEST_F(Penetration, HoldsForRandomPairs) {
-    for_each_case(seed, 150, [&](Random& random) { check(any_pair(random)); });
+    for_each_case(penetration_seed, 150, [&](Random& random) { check(any_pair(random)); });
 }
 
 TEST_F(Penetration, HoldsForEveryFamily) {
-    for (const std::uint64_t round : {seed, seed + 6}) {
+    for (const std::uint64_t round : {penetration_seed, penetration_seed + 6}) {
         SCOPED_TRACE("seed " + std::to_string(round));
         for (Pair& pair : family_pairs(round)) {
             check(std::move(pair));
@@ -95,7 +93,7 @@ TEST_F(Penetration, OfEquallyDeepPointsTheFirstIsTheDeepest) {
 }
 
 TEST_F(Penetration, HoldsForLongCoasts) {
-    Random random(seed);
+    Random random(penetration_seed);
     for (const int n : {5000, 20000}) {
         SCOPED_TRACE(n);
         const Rings a = coast(random, n, 0.5);
@@ -106,7 +104,7 @@ TEST_F(Penetration, HoldsForLongCoasts) {
 }
 
 TEST_F(Penetration, HoldsForIdenticalCopiesAndSharedEdges) {
-    Random random(seed);
+    Random random(penetration_seed);
     const Rings shape = star(random, 60, 0.5);
     check(shape, shape, 0.02);
     const Rings left = rectangle({-2, -1}, {0, 1});
@@ -118,7 +116,7 @@ TEST_F(Penetration, HoldsForIdenticalCopiesAndSharedEdges) {
 }
 
 TEST_F(Penetration, HoldsForShapesSmallerThanACell) {
-    Random random(seed);
+    Random random(penetration_seed);
     const Rings big = star(random, 30, 0.6);
     check(scaled_and_moved(star(random, 9, 0.5), 1e-3, {0.1, 0.05}), big, 0.1);
     check(big, scaled_and_moved(star(random, 9, 0.5), 1e-3, {0.1, 0.05}), 0.1);
@@ -126,7 +124,7 @@ TEST_F(Penetration, HoldsForShapesSmallerThanACell) {
 }
 
 TEST_F(Penetration, HoldsAtExtremeScales) {
-    Random random(seed);
+    Random random(penetration_seed);
     const Rings a = with_holes(random, 6);
     const Rings b = scaled_and_moved(coast(random, 400, 0.5), 1.2, {0.6, -0.3});
     for (const double factor : {1e-12, 1e-6, 1e6, 1e11}) {
@@ -136,7 +134,7 @@ TEST_F(Penetration, HoldsAtExtremeScales) {
 }
 
 TEST_F(Penetration, HoldsForAThousandParts) {
-    Random random(seed);
+    Random random(penetration_seed);
     Rings parts;
     for (int i = 0; i < 1000; ++i) {
         const Vector2 place{0.06 * (i % 40) - 1.2, 0.1 * (i / 40) - 1.2};
@@ -183,7 +181,7 @@ TEST_F(Penetration, DirectionsOnTheMedialAxisAreNotUnique) {
 }
 
 TEST_F(Penetration, SummaryIsTheSameWithoutRecords) {
-    for (Pair& pair : family_pairs(seed + 2)) {
+    for (Pair& pair : family_pairs(penetration_seed + 2)) {
         const PlacedPair placed(context(), std::move(pair));
         SCOPED_TRACE(describe(placed.pair()));
         for (const PenetrationPoints points : both_ways) {

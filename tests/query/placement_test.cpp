@@ -7,7 +7,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 360;
+constexpr std::uint64_t placement_seed = 360;
 
 class Placement : public QueryTest {
 protected:
@@ -25,8 +25,8 @@ Pose moved(const Pose& pose, const Pose& motion) {
 }
 
 void Placement::check_moved(Technique technique) {
-    Random random(seed);
-    for (const Pair& pair : family_pairs(seed)) {
+    Random random(placement_seed);
+    for (const Pair& pair : family_pairs(placement_seed)) {
         const Pose motion{{random.between(-1e6, 1e6), random.between(-1e6, 1e6)},
                           random.between(-4.0, 4.0)};
         Pair elsewhere = pair;
@@ -60,7 +60,7 @@ TEST_F(Placement, MovingBothChangesNothingForTheComputeTechnique) {
 }
 
 TEST_F(Placement, ContainmentIsFoundBothWays) {
-    Random random(seed);
+    Random random(placement_seed);
     const NamedRings big{"big", scaled_and_moved(star(random, 50, 0.8), 10.0, {})};
     const NamedRings small{"small", star(random, 30, 0.5)};
     const PlacedPair inner(context(), {small, big, {{1.0, 2.0}, 0.4}, {}, 0.05});
@@ -94,7 +94,7 @@ TEST_F(Placement, AShapeInAHoleIsApart) {
 }
 
 TEST_F(Placement, FarApartIsEmptyAndHasNoRegions) {
-    Random random(seed);
+    Random random(placement_seed);
     const NamedRings shape{"star", star(random, 80, 0.3)};
     for (const double away : {3.0, 1e3, 1e9}) {
         const PlacedPair pair(context(), {shape, shape, {}, {{away, away / 2}, 1.0}, 0.05});

@@ -14,7 +14,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 18000;
+constexpr std::uint64_t point_search_seed = 18000;
 
 /// Points of a boundary that the device searches by itself (technique compute), compared with the
 /// oracle and with technique cpu.
@@ -117,7 +117,7 @@ private:
 };
 
 TEST_F(PointSearch, HoldsForRandomPairs) {
-    for_each_case(seed, 12, [&](Random& random) {
+    for_each_case(point_search_seed, 12, [&](Random& random) {
         std::vector<Pair> pairs;
         for (int i = 0; i < 8; ++i) {
             pairs.push_back(any_pair(random));
@@ -128,7 +128,7 @@ TEST_F(PointSearch, HoldsForRandomPairs) {
 
 // The tolerance is so small against the shapes that single precision cannot name the feature.
 TEST_F(PointSearch, HoldsWhereSinglePrecisionLeavesDoubt) {
-    for_each_case(seed + 1000, 20, [&](Random& random) {
+    for_each_case(point_search_seed + 1000, 20, [&](Random& random) {
         Pair pair = any_pair(random);
         // A small part of A's boundary lies in B, so that the samples stay few.
         pair.a.rings = scaled_and_moved(star(random, 5, 0.5), 0.01, {});
@@ -146,7 +146,7 @@ TEST_F(PointSearch, HoldsWhereSinglePrecisionLeavesDoubt) {
 
 // Vertices of A nearer to B's boundary than single precision can tell, on either side.
 TEST_F(PointSearch, DecidesTheSideWhereSinglePrecisionCannot) {
-    for_each_case(seed + 3000, 6, [&](Random& random) {
+    for_each_case(point_search_seed + 3000, 6, [&](Random& random) {
         Pair pair;
         pair.b = {"coast", coast(random, 300, 0.2)};
         pair.a = {"nearly the same", pair.b.rings};
@@ -174,7 +174,7 @@ TEST_F(PointSearch, DecidesTheSideWhereSinglePrecisionCannot) {
 // which is nearer. Four that follow each other lie together, as the device searches for them at
 // once.
 TEST_F(PointSearch, DecidesTheNearerWallWhereSinglePrecisionCannot) {
-    for_each_case(seed + 4000, 4, [&](Random& random) {
+    for_each_case(point_search_seed + 4000, 4, [&](Random& random) {
         constexpr int walls = 40;
         Ring strip;
         for (int i = 0; i <= walls; ++i) {
@@ -197,7 +197,7 @@ TEST_F(PointSearch, DecidesTheNearerWallWhereSinglePrecisionCannot) {
 
 // Walls of B so close behind each other that single precision takes their points for one.
 TEST_F(PointSearch, DecidesTheNearestOfWallsThatSinglePrecisionTakesForOne) {
-    for_each_case(seed + 5000, 4, [&](Random& random) {
+    for_each_case(point_search_seed + 5000, 4, [&](Random& random) {
         const Ring around{{-100.0, -100.0}, {100.0, -100.0}, {100.0, 1.0}, {-100.0, 1.0}};
         Ring slit{{-99.0, 1.0 - 6e-7}, {99.0, 1.0 - 6e-7}, {99.0, 1.0 - 3e-7}, {-99.0, 1.0 - 3e-7}};
         std::vector<Vector2> row;
@@ -215,7 +215,7 @@ TEST_F(PointSearch, DecidesTheNearestOfWallsThatSinglePrecisionTakesForOne) {
 
 // Rays across all teeth of a comb: the walks of the device end before they have seen all edges.
 TEST_F(PointSearch, LeavesLongWalksToTheCpu) {
-    for_each_case(seed + 6000, 4, [&](Random& random) {
+    for_each_case(point_search_seed + 6000, 4, [&](Random& random) {
         const std::size_t edges = 70000;
         const bool is_comb = random.whole(0, 2) == 0;
         Pair pair;
@@ -239,7 +239,7 @@ TEST_F(PointSearch, LeavesLongWalksToTheCpu) {
 
 // Sizes apart by four orders of magnitude, rings in dozens, and coordinates of a million.
 TEST_F(PointSearch, HoldsForMixedSizesFarFromTheOrigin) {
-    for_each_case(seed + 2000, 6, [&](Random& random) {
+    for_each_case(point_search_seed + 2000, 6, [&](Random& random) {
         const Vector2 world{random.between(-1e6, 1e6), random.between(-1e6, 1e6)};
         std::vector<Pair> pairs;
         for (int i = 0; i < 4; ++i) {
@@ -262,7 +262,7 @@ TEST_F(PointSearch, HoldsForMixedSizesFarFromTheOrigin) {
 
 // Squares of lengths would leave the range of single precision in world units.
 TEST_F(PointSearch, HoldsForShapesOfAnySize) {
-    Random random(seed + 4000);
+    Random random(point_search_seed + 4000);
     std::vector<Pair> pairs;
     for (const double size : {1e-19, 1e-12, 1e-6, 1e3, 1e9}) {
         for (int i = 0; i < 4; ++i) {
@@ -281,7 +281,7 @@ TEST_F(PointSearch, HoldsForShapesOfAnySize) {
 TEST_F(PointSearch, RepeatsWithMoreRoom) {
     Expected<Context> fresh = Context::create(host_device(), on_demand());
     ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
-    Random random(seed);
+    Random random(point_search_seed);
     const Pair pair{
         {"coast", coast(random, 500, 0.4)}, {"square", rectangle({-2, -2}, {2, 2})}, {}, {}, 1e-4};
     const PlacedPair placed(*fresh, pair, Technique::compute);
@@ -300,7 +300,7 @@ TEST_F(PointSearch, RepeatsWithMoreRoom) {
 // Long boundaries of which little lies in B: what the device may find is counted for each query,
 // and many of them take several searches.
 TEST_F(PointSearch, IsDividedWhereItMayFindMuch) {
-    Random random(seed + 1);
+    Random random(point_search_seed + 1);
     const Pair pair{{"star", star(random, 30, 0.5)},
                     {"square", rectangle({0.5, -0.02}, {2, 0.02})},
                     {},
@@ -333,7 +333,7 @@ TEST_F(PointSearch, HoldsForTensOfThousandsOfEdges) {
         const double radius = i % 2 == 0 ? 1.0 : 1.0 + 1e-4;
         gear.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
-    Random random(seed + 6000);
+    Random random(point_search_seed + 6000);
     const Pair pair{
         {"star", scaled_and_moved(star(random, 30, 0.6), 1.1, {})}, {"gear", {gear}}, {}, {}, 0.01};
     const PlacedPair placed(context(), pair, Technique::compute);
@@ -347,7 +347,7 @@ TEST_F(PointSearch, HoldsForTensOfThousandsOfEdges) {
 
 // Three times as many blocks of edges as one workgroup scans.
 TEST_F(PointSearch, HoldsForManyBlocks) {
-    Random random(seed + 7000);
+    Random random(point_search_seed + 7000);
     const Rings large = coast(random, 3 * plan::scan_block * plan::search_block, 0.1);
     const Pair pair{{"coast", large}, {"square", rectangle({-0.8, -2}, {2, 2})}, {}, {}, 0.01};
     const PlacedPair placed(context(), pair, Technique::compute);
@@ -360,7 +360,7 @@ TEST_F(PointSearch, HoldsForManyBlocks) {
 
 // What is kept of shapes that change, grow and shrink never shows.
 TEST_F(PointSearch, KeepsNothingOfFormerShapes) {
-    Random random(seed + 2);
+    Random random(point_search_seed + 2);
     const auto any = [&random] { return star(random, random.whole(3, 200), 0.3); };
     const Expected<ShapeHandle> a = context().add_shape(any());
     const Expected<ShapeHandle> b = context().add_shape(any());

@@ -13,7 +13,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 52000;
+constexpr std::uint64_t point_summaries_seed = 52000;
 
 /// Penetration by compute without records: most pairs have a row in place of the points found.
 /// The answers are held to those with records, which are held to the oracle.
@@ -87,7 +87,7 @@ protected:
 };
 
 TEST_F(PointSummaries, HoldForRandomPairs) {
-    for_each_case(seed, 4, [&](Random& random) {
+    for_each_case(point_summaries_seed, 4, [&](Random& random) {
         std::vector<Pair> pairs;
         for (int i = 0; i < 24; ++i) {
             pairs.push_back(any_pair(random));
@@ -107,7 +107,7 @@ TEST_F(PointSummaries, HoldForDegeneratePairs) {
     const std::vector<std::pair<Rings, Rings>> shapes{
         {square, square}, {small, square},    {square, small}, {large, square},
         {square, large},  {touching, square}, {square, tip},   {tip, square}};
-    for_each_case(seed + 1000, 3, [&](Random& random) {
+    for_each_case(point_summaries_seed + 1000, 3, [&](Random& random) {
         std::vector<Pair> pairs;
         for (const auto& [a, b] : shapes) {
             // Moved by nothing, by less than a touch, by what single precision rounds.
@@ -133,7 +133,7 @@ TEST_F(PointSummaries, HoldForDegeneratePairs) {
 // In a workgroup are points of directions that lie a multiple of its threads apart, as those
 // between have no points.
 TEST_F(PointSummaries, HoldForPairsOfWhichFewHavePoints) {
-    Random random(seed + 2000);
+    Random random(point_summaries_seed + 2000);
     const Pair around{{"frame", rectangle({-9.0, -9.0}, {9.0, 9.0})},
                       {"square", rectangle({-1.0, -1.0}, {1.0, 1.0})},
                       {},
@@ -168,7 +168,7 @@ TEST_F(PointSummaries, HoldForPairsOfWhichFewHavePoints) {
 
 // More than a row counts: the CPU makes all of them exact.
 TEST_F(PointSummaries, CountPointsByTheHundredThousand) {
-    Random random(seed + 3000);
+    Random random(point_summaries_seed + 3000);
     Pair pair;
     pair.a = {"coast", coast(random, 500, 0.4)};
     pair.b = {"square", rectangle({-0.7, -2.0}, {2.0, 2.0})};

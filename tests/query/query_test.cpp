@@ -2,10 +2,12 @@
 
 #include <tests/support/vulkan_host.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 namespace nearfield::test {
 namespace {
@@ -48,6 +50,25 @@ Device& device() {
 const testing::Environment* const registered = testing::AddGlobalTestEnvironment(&device());
 
 }  // namespace
+
+void expect_answers(const Results& results) {
+    for (std::size_t i = 0; i < results.results.size(); ++i) {
+        std::visit(
+            [&](const auto& result) {
+                EXPECT_TRUE(result.status.ok()) << i << ": " << result.status.text();
+            },
+            results.results[i]);
+    }
+}
+
+Rectangle box_of(const std::vector<IntersectionSample>& samples) {
+    Rectangle box{samples.front().position, samples.front().position};
+    for (const IntersectionSample& sample : samples) {
+        box.min = {std::min(box.min.x, sample.position.x), std::min(box.min.y, sample.position.y)};
+        box.max = {std::max(box.max.x, sample.position.x), std::max(box.max.y, sample.position.y)};
+    }
+    return box;
+}
 
 Settings on_demand(Settings settings) {
     settings.pipelines_on_demand = true;

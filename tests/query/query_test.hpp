@@ -6,10 +6,22 @@
 #include <tests/support/polygons.hpp>
 #include <tests/support/techniques.hpp>
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace nearfield::test {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr std::array every_kind{IntersectionKind::boundary_boundary,
+                                       IntersectionKind::boundary_volume,
+                                       IntersectionKind::volume_volume};
+inline constexpr std::array every_strategy{
+    IntersectionStrategy::stencil, IntersectionStrategy::blend, IntersectionStrategy::logic_op,
+    IntersectionStrategy::depth};
+inline constexpr std::array both_ways{PenetrationPoints::boundary, PenetrationPoints::vertices};
 
 /// The number of random cases in a test: `usual`, or the environment variable NEARFIELD_TEST_CASES.
 int random_cases(int usual);
@@ -29,6 +41,12 @@ void for_each_case(std::uint64_t seed, int usual, const Check& check) {
         check(random);
     }
 }
+
+/// Fails the test for each query that was not answered.
+void expect_answers(const Results& results);
+
+/// The box around the samples, of which there is at least one.
+[[nodiscard]] Rectangle box_of(const std::vector<IntersectionSample>& samples);
 
 /// Settings with which no pipeline is made that a test does not need.
 [[nodiscard]] Settings on_demand(Settings settings = {});

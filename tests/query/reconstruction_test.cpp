@@ -10,7 +10,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 60606;
+constexpr std::uint64_t reconstruction_seed = 60606;
 
 class Reconstruction : public FieldLaws {
 protected:
@@ -39,8 +39,8 @@ protected:
 TEST_F(Reconstruction, HoldsForRandomShapesByEveryMethodAndEncoding) {
     const int cases = random_cases(60);
     for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + static_cast<std::uint64_t>(i));
+        SCOPED_TRACE("seed " + std::to_string(reconstruction_seed) + " case " + std::to_string(i));
+        Random random(reconstruction_seed + static_cast<std::uint64_t>(i));
         const AnyField field(context(), random);
         SCOPED_TRACE(field.text());
         DistanceFieldQuery query = field.query();
@@ -58,7 +58,7 @@ TEST_F(Reconstruction, HoldsForRandomShapesByEveryMethodAndEncoding) {
 }
 
 TEST_F(Reconstruction, HoldsForEveryFamilyAndRealOutlines) {
-    Random random(seed);
+    Random random(reconstruction_seed);
     const auto check = [&](const Rings& rings, double tolerance, const Rectangle& box) {
         const PlacedShape shape(context(), rings, {});
         DistanceFieldQuery query;
@@ -72,7 +72,7 @@ TEST_F(Reconstruction, HoldsForEveryFamilyAndRealOutlines) {
         query.technique = Technique::cpu;
         check_points(shape.oracle(), query, run_alone(context(), query));
     };
-    for (const auto& [name, rings] : every_family(seed)) {
+    for (const auto& [name, rings] : every_family(reconstruction_seed)) {
         SCOPED_TRACE(name);
         check(rings, 0.04, {{-1.2, -1.2}, {1.2, 1.2}});
     }
@@ -102,8 +102,8 @@ Differences differences(const DistanceFieldResult& one, const DistanceFieldResul
 TEST_F(Reconstruction, SignEncodingsAgree) {
     const int cases = random_cases(40);
     for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + 500 + static_cast<std::uint64_t>(i));
+        SCOPED_TRACE("seed " + std::to_string(reconstruction_seed) + " case " + std::to_string(i));
+        Random random(reconstruction_seed + 500 + static_cast<std::uint64_t>(i));
         const AnyField field(context(), random);
         SCOPED_TRACE(field.text());
         Batch batch;
@@ -153,7 +153,7 @@ void check_features_alike(const DistanceFieldResult& one, const DistanceFieldRes
 }
 
 TEST_F(Reconstruction, HoldsInOneBatchWithEverything) {
-    Random random(seed + 9);
+    Random random(reconstruction_seed + 9);
     const PlacedPair pair(
         context(),
         {{"A", star(random, 20, 0.5)}, {"B", star(random, 30, 0.4)}, {}, {{0.4, 0.2}, 0.5}, 0.04});
@@ -207,8 +207,8 @@ TEST_F(Reconstruction, HoldsInOneBatchWithEverything) {
 TEST_F(Reconstruction, CellsAloneGiveWhatTheWholeImageGives) {
     const int cases = random_cases(27);
     for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + 800 + static_cast<std::uint64_t>(i));
+        SCOPED_TRACE("seed " + std::to_string(reconstruction_seed) + " case " + std::to_string(i));
+        Random random(reconstruction_seed + 800 + static_cast<std::uint64_t>(i));
         const AnyField field(context(), random);
         DistanceFieldQuery query = field.query();
         query.sign = static_cast<SignEncoding>(i % 3);
@@ -249,8 +249,8 @@ TEST_F(Reconstruction, CellsAloneGiveWhatTheWholeImageGives) {
 TEST_F(Reconstruction, TechniquesAgreeAtPoints) {
     const int cases = random_cases(20);
     for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + 1200 + static_cast<std::uint64_t>(i));
+        SCOPED_TRACE("seed " + std::to_string(reconstruction_seed) + " case " + std::to_string(i));
+        Random random(reconstruction_seed + 1200 + static_cast<std::uint64_t>(i));
         const AnyField field(context(), random);
         SCOPED_TRACE(field.text());
         DistanceFieldQuery query = field.query();
@@ -276,7 +276,7 @@ TEST_F(Reconstruction, TechniquesAgreeAtPoints) {
 
 /// Several tiles and tile batches, points everywhere, and points in only some tiles.
 TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
-    Random random(seed);
+    Random random(reconstruction_seed);
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;
     Expected<Context> small = Context::create(host_device(), on_demand(settings));
@@ -330,7 +330,7 @@ TEST_F(Reconstruction, FarPointsAreAsExactAsTheirCells) {
 
 /// The values behind a difference at a point are those of the field.
 TEST_F(Reconstruction, GradientsAtPointsAreBilinearBetweenCells) {
-    Random random(seed + 3);
+    Random random(reconstruction_seed + 3);
     const PlacedShape shape(context(), star(random, 20, 0.4), {});
     for (const auto method : {GradientMethod::central_differences, GradientMethod::blended}) {
         DistanceFieldQuery query;

@@ -11,7 +11,7 @@ namespace {
 
 using ResidentDrawing = QueryTest;
 
-constexpr std::uint64_t seed = 8200;
+constexpr std::uint64_t resident_drawing_seed = 8200;
 constexpr VkExtent2D pixels{720, 540};
 
 struct Scene {
@@ -113,7 +113,7 @@ void check_samples_drawn(const Scene& scene, const Picture& picture,
 }
 
 TEST_F(ResidentDrawing, AHostDrawsFieldContactsAndOverlapWithoutAnyReadBack) {
-    Random random(seed);
+    Random random(resident_drawing_seed);
     const Rings rings = with_holes(random, 2);
     const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.006};
     ResidentView view(host_device(), pixels);

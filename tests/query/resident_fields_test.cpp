@@ -6,10 +6,10 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t field_seed = 8100;
+constexpr std::uint64_t resident_field_seed = 8100;
 
 TEST_F(Resident, FieldImagesHoldWhatComesBack) {
-    for_each_case(field_seed, 6, [&](Random& random) {
+    for_each_case(resident_field_seed, 6, [&](Random& random) {
         const PlacedPair pair(context(), any_pair(random), Technique::compute);
         SCOPED_TRACE(describe(pair.pair()));
         FieldOnDevice field;
@@ -26,7 +26,7 @@ TEST_F(Resident, FieldImagesHoldWhatComesBack) {
 
 TEST_F(Resident, FieldsOfEveryFamilyAndOfSeveralTilesWithHalos) {
     int number = 0;
-    for (const Pair& made : family_pairs(field_seed)) {
+    for (const Pair& made : family_pairs(resident_field_seed)) {
         const PlacedPair pair(context(), made, Technique::compute);
         SCOPED_TRACE(describe(made));
         DistanceFieldQuery query = field_of(pair, Technique::compute);
@@ -49,7 +49,7 @@ TEST_F(Resident, FieldsOfEveryFamilyAndOfSeveralTilesWithHalos) {
 
 // Alternately with features, in the same context: images that are there stay as they are.
 TEST_F(Resident, FieldOfDistancesAlone) {
-    for_each_case(field_seed, 4, [&](Random& random) {
+    for_each_case(resident_field_seed, 4, [&](Random& random) {
         const PlacedPair pair(context(), any_pair(random), Technique::compute);
         SCOPED_TRACE(describe(pair.pair()));
         DistanceFieldQuery query = field_of(pair, Technique::compute);
@@ -91,7 +91,7 @@ TEST_F(Resident, FieldOfManyRoundsOfWhichNothingComesBack) {
     settings.memory_limit = std::uint64_t{32} << 20U;  // small atlas images
     Expected<Context> made = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
-    Random random(field_seed);
+    Random random(resident_field_seed);
     Pair shapes{
         {"coast", coast(random, 200, 0.4)}, {"holes", with_holes(random, 3)}, {}, {}, 0.003};
     const PlacedPair pair(*made, shapes, Technique::compute);

@@ -10,7 +10,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 9100;
+constexpr std::uint64_t smallest_shapes_seed = 9100;
 
 /// Scales shapes of size about 2 to slightly above `smallest_extent`; a power of two, so that
 /// nothing is rounded.
@@ -79,7 +79,7 @@ class SmallestShapes : public QueryTest {};
 /// Every number of every result by every technique is the same, or the same length or area in other
 /// units, bit for bit.
 TEST_F(SmallestShapes, AreAnsweredAsLargerOnes) {
-    Random random(seed);
+    Random random(smallest_shapes_seed);
     const Rings rings_a = coast(random, 100, 0.5);
     const Rings rings_b = with_holes(random, 3);
     const Expected<ShapeHandle> a = context().add_shape(rings_a);
@@ -98,7 +98,8 @@ TEST_F(SmallestShapes, AreAnsweredAsLargerOnes) {
     ASSERT_TRUE(context().run(small_batch, small).ok());
     ASSERT_EQ(large.results.size(), small.results.size());
     for (std::size_t query = 0; query < large.results.size(); ++query) {
-        SCOPED_TRACE(::testing::Message() << "seed " << seed << ", query " << query);
+        SCOPED_TRACE(::testing::Message()
+                     << "seed " << smallest_shapes_seed << ", query " << query);
         Results one;
         Results other;
         one.results.push_back(large.results[query]);

@@ -14,11 +14,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 4711;
-constexpr std::array every_strategy{IntersectionStrategy::stencil, IntersectionStrategy::blend,
-                                    IntersectionStrategy::logic_op, IntersectionStrategy::depth};
-constexpr std::array every_kind{IntersectionKind::boundary_boundary,
-                                IntersectionKind::boundary_volume, IntersectionKind::volume_volume};
+constexpr std::uint64_t strategies_seed = 4711;
 
 /// A validated device, with the feature logicOp if available, and contexts on it.
 class Strategies : public testing::Test {
@@ -58,15 +54,6 @@ protected:
 };
 test_support::VulkanHost* Strategies::host_ = nullptr;
 Context* Strategies::context_ = nullptr;
-
-Rectangle box_of(const std::vector<IntersectionSample>& samples) {
-    Rectangle box{samples.front().position, samples.front().position};
-    for (const IntersectionSample& sample : samples) {
-        box.min = {std::min(box.min.x, sample.position.x), std::min(box.min.y, sample.position.y)};
-        box.max = {std::max(box.max.x, sample.position.x), std::max(box.max.y, sample.position.y)};
-    }
-    return box;
-}
 
 void expect_same(const std::vector<ReferenceSample>& expected, const IntersectionResult& result) {
     ASSERT_TRUE(result.status.ok()) << result.status.text();
@@ -155,14 +142,14 @@ void Strategies::check(const PlacedPair& pair, Context& context, const Settings&
 TEST_F(Strategies, AgreeOnRandomPairs) {
     const int cases = random_cases(12);
     for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + static_cast<std::uint64_t>(i));
+        SCOPED_TRACE("seed " + std::to_string(strategies_seed) + " case " + std::to_string(i));
+        Random random(strategies_seed + static_cast<std::uint64_t>(i));
         check(PlacedPair(*context_, any_pair(random)), *context_);
     }
 }
 
 TEST_F(Strategies, AgreeOnEveryFamily) {
-    for (Pair& pair : family_pairs(seed)) {
+    for (Pair& pair : family_pairs(strategies_seed)) {
         check(PlacedPair(*context_, std::move(pair)), *context_);
     }
 }
@@ -197,7 +184,7 @@ TEST_F(Strategies, AgreeOverManyTilesAndRounds) {
     Settings settings;
     settings.memory_limit = 12U << 20U;
     Context context = make(settings);
-    Random random(seed);
+    Random random(strategies_seed);
     const Rings a = scaled_and_moved(with_holes(random, 5), 10.0, {});
     const Rings b = scaled_and_moved(star(random, 40, 0.6), 10.0, {});
     const PlacedPair pair(context, {{"A", a}, {"B", b}, {}, {{1.0, 0.5}, 0.2}, 0.052});
@@ -212,7 +199,7 @@ TEST_F(Strategies, MixInOneBatch) {
     Batch batch;
     std::vector<QueryHandle<IntersectionQuery>> handles;
     std::vector<IntersectionResult> alone;
-    for (Pair& pair : family_pairs(seed + 1)) {
+    for (Pair& pair : family_pairs(strategies_seed + 1)) {
         const PlacedPair& placed = pairs.emplace_back(*context_, std::move(pair));
         IntersectionQuery query = placed.intersection(every_kind[handles.size() % 3]);
         query.strategy = every_strategy[(handles.size() / 3) % 4];
@@ -304,7 +291,7 @@ TEST_F(Strategies, SearchLargeTilesWhereverASamplePasses) {
 class MissingStrategies : public QueryTest {};
 
 TEST_F(MissingStrategies, AreRefusedByNameAndTheRestAnswered) {
-    Random random(seed);
+    Random random(strategies_seed);
     const PlacedPair pair(context(), any_pair(random));
     Batch batch;
     IntersectionQuery query = pair.intersection(IntersectionKind::boundary_volume);
@@ -328,7 +315,7 @@ TEST_F(MissingStrategies, AreRefusedByNameAndTheRestAnswered) {
 }
 
 TEST_F(MissingStrategies, TheCpuNeedsNone) {
-    Random random(seed);
+    Random random(strategies_seed);
     const PlacedPair pair(context(), any_pair(random), Technique::cpu);
     IntersectionQuery query = pair.intersection(IntersectionKind::boundary_volume);
     const IntersectionResult by_stencil = run_alone(context(), query);
@@ -340,7 +327,7 @@ TEST_F(MissingStrategies, TheCpuNeedsNone) {
 }
 
 TEST_F(MissingStrategies, AreNoEnumerators) {
-    Random random(seed);
+    Random random(strategies_seed);
     const PlacedPair pair(context(), any_pair(random));
     IntersectionQuery query = pair.intersection(IntersectionKind::volume_volume);
     query.strategy = static_cast<IntersectionStrategy>(4);

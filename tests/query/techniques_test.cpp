@@ -16,8 +16,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 1618;
-constexpr std::array both_ways{PenetrationPoints::boundary, PenetrationPoints::vertices};
+constexpr std::uint64_t techniques_seed = 1618;
 
 /// Compares the CPU's answers with the oracle, and all techniques with each other.
 class Techniques : public QueryTest {
@@ -164,7 +163,7 @@ protected:
 };
 
 TEST_F(Techniques, AgreeOnRandomPairs) {
-    for_each_case(seed, 60, [&](Random& random) {
+    for_each_case(techniques_seed, 60, [&](Random& random) {
         Pair pair = any_pair(random);
         if (random.whole(0, 2) == 0) {  // apart
             pair.pose_b.translation.x += random.scale(0.1, 100.0) * 10.0 * pair.tolerance;
@@ -174,14 +173,14 @@ TEST_F(Techniques, AgreeOnRandomPairs) {
 }
 
 TEST_F(Techniques, AgreeOnEveryFamily) {
-    for (const Pair& pair : family_pairs(seed)) {
+    for (const Pair& pair : family_pairs(techniques_seed)) {
         check(pair);
     }
 }
 
 TEST_F(Techniques, AgreeOnDegeneratePolygons) {
     constexpr std::uint32_t cells = 40;
-    const std::vector<NamedRings> shapes = degenerate_shapes(context(), cells, seed);
+    const std::vector<NamedRings> shapes = degenerate_shapes(context(), cells, techniques_seed);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const Pair pair{shapes[i], shapes[(i + 5) % shapes.size()], {}, {{1.3, -0.7}, 0.1}, 0.7};
         check(pair);
@@ -205,7 +204,7 @@ TEST_F(Techniques, AgreeOnCrowds) {
     check({pentagons, pentagons, {}, {}, 0.4});
     check({pentagons, pentagons, {{0.3, 0.2}, 0.4}, {{-100.0, 3.0}, 2.0}, 0.4});
     NamedRings specks{"specks", {}};
-    Random random(seed);
+    Random random(techniques_seed);
     for (int i = 0; i < 400; ++i) {
         specks.rings.push_back(
             scaled_and_moved(regular(4), 0.001,
@@ -256,7 +255,7 @@ TEST_F(Techniques, AgreeOnOutlines) {
 }
 
 TEST_F(Techniques, AgreeAroundTheSizeFromWhichThereIsATree) {
-    Random random(seed);
+    Random random(techniques_seed);
     for (const int n : {3, 63, 64, 65, 130}) {
         SCOPED_TRACE(n);
         const Rings a = star(random, n, 0.5);
@@ -296,7 +295,7 @@ TEST_F(Techniques, CrossingWithoutAVertexInside) {
 
 /// Normals from the gradient of B's field, with the field by each technique.
 TEST_F(Techniques, AgreeOnNormalsByGradient) {
-    Random random(seed);
+    Random random(techniques_seed);
     const Pair pair{
         {"A", star(random, 20, 0.4)}, {"B", star(random, 25, 0.3)}, {}, {{1.2, 0.3}, 0.2}, 0.02};
     const PlacedPair raster(context(), pair, Technique::raster);
@@ -324,7 +323,7 @@ TEST_F(Techniques, AgreeOnNormalsByGradient) {
 }
 
 TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
-    Random random(seed);
+    Random random(techniques_seed);
     std::vector<Rings> rings;
     std::vector<ShapeHandle> shapes;
     for (const int n : {12, 30, 50, 200}) {

@@ -8,7 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 1944;
+constexpr std::uint64_t tiles_seed = 1944;
 
 std::vector<TileReport> tiles_of(const Context& context) {
     const Expected<std::vector<TileReport>> tiles = list_tiles(context);
@@ -71,7 +71,7 @@ TEST_F(Tiles, HoldWhatTheyWereMadeFor) {
     for (const Technique technique : device_techniques) {
         SCOPED_TRACE(to_string(technique));
         std::size_t records = 0;
-        for (const Pair& pair : family_pairs(seed)) {
+        for (const Pair& pair : family_pairs(tiles_seed)) {
             SCOPED_TRACE(describe(pair));
             const PlacedPair placed(context(), pair, technique);
             Batch batch;
@@ -106,7 +106,7 @@ TEST_F(Tiles, HoldWhatTheyWereMadeFor) {
 }
 
 TEST_F(Tiles, AFieldIsCoveredWhole) {
-    const PlacedPair placed(context(), family_pairs(seed)[2]);
+    const PlacedPair placed(context(), family_pairs(tiles_seed)[2]);
     DistanceFieldQuery query;
     query.b = placed.instance_b();
     query.tolerance = 0.05;
@@ -132,7 +132,7 @@ TEST_F(Tiles, ThereAreNoneWhereNothingIsDrawn) {
     Expected<Context> fresh = Context::create(host_device(), on_demand());
     ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
     EXPECT_TRUE(tiles_of(*fresh).empty());
-    const Pair pair = family_pairs(seed)[3];
+    const Pair pair = family_pairs(tiles_seed)[3];
     const PlacedPair drawn(*fresh, pair);
     const PlacedPair by_cpu(*fresh, pair, Technique::cpu);
     ASSERT_TRUE(run_alone(*fresh, drawn.penetration()).status.ok());

@@ -5,8 +5,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 class RaysByDevice : public WorldQuestionsTest {};
 
 /// So near vertices that single precision cannot tell what is hit, of what is in front or behind.

@@ -11,8 +11,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 31000;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t world_questions_seed = 31000;
 
 /// Rays, nearest points and pose tests, submitted and answered by each technique: the answers are
 /// those of the CPU, given at once.
@@ -29,7 +28,7 @@ protected:
 
     void SetUp() override {
         WorldQuestionsTest::SetUp();
-        Random random(seed);
+        Random random(world_questions_seed);
         square_ = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
         star_ = add_shape(star(random, 15, 0.4));
     }
@@ -101,7 +100,7 @@ protected:
 };
 
 TEST_P(WorldQuestions, AreAnsweredAsByTheCpuAtOnce) {
-    for_each_case(seed, 6, [&](Random& random) {
+    for_each_case(world_questions_seed, 6, [&](Random& random) {
         const std::vector<InstanceHandle> added = add_some(random, 8.0);
         Inputs inputs = some_inputs(random, 1000, 12.0);
         EXPECT_GT(compare(inputs), 100U);
@@ -114,7 +113,7 @@ TEST_P(WorldQuestions, AreAnsweredAsByTheCpuAtOnce) {
 }
 
 TEST_P(WorldQuestions, DoNotShowTheirHistory) {
-    for_each_case(seed + 1000, 2, [&](Random& random) {
+    for_each_case(world_questions_seed + 1000, 2, [&](Random& random) {
         run_history(random, {.steps = 12, .instances = 150, .extent = 25.0},
                     [&] { EXPECT_GT(compare(some_inputs(random, 200, 25.0)), 20U); });
     });
@@ -122,7 +121,7 @@ TEST_P(WorldQuestions, DoNotShowTheirHistory) {
 
 /// More instances than three levels of boxes hold, sizes from 1/1000 to 10, and one below them all.
 TEST_P(WorldQuestions, AmongManyInstancesOfAllSizes) {
-    Random random(seed + 2000);
+    Random random(world_questions_seed + 2000);
     std::vector<ShapeHandle> shapes;
     for (const double size : {0.001, 0.01, 0.1, 1.0}) {
         shapes.push_back(add_shape(scaled_and_moved(star(random, 12, 0.5), size, {0.0, 0.0})));
@@ -138,7 +137,7 @@ TEST_P(WorldQuestions, AmongManyInstancesOfAllSizes) {
 }
 
 TEST_P(WorldQuestions, FarFromTheOrigin) {
-    for_each_case(seed + 3000, 3, [&](Random& random) {
+    for_each_case(world_questions_seed + 3000, 3, [&](Random& random) {
         const Vector2 far{1e6, -3e6};
         const std::vector<InstanceHandle> added = add_some(random, 8.0, far);
         EXPECT_GT(compare(some_inputs(random, 500, 12.0, far)), 50U);
@@ -157,7 +156,7 @@ TEST_P(WorldQuestions, FarFromTheOrigin) {
 /// length.
 TEST_P(WorldQuestions, AmongTilesThatTouch) {
     for (const Vector2& at : {Vector2{0.0, 0.0}, Vector2{1e6, 2e6}, Vector2{0.1, 0.7}}) {
-        Random random(seed + 4000);
+        Random random(world_questions_seed + 4000);
         const std::vector<InstanceHandle> added = add_tiles(at);
         EXPECT_GT(compare(inputs_of_tiles(random, 500, at)), 200U);
         EXPECT_GT(left_, 0U);
@@ -167,7 +166,7 @@ TEST_P(WorldQuestions, AmongTilesThatTouch) {
 }
 
 TEST_P(WorldQuestions, ConsiderFilters) {
-    Random random(seed + 5000);
+    Random random(world_questions_seed + 5000);
     const auto added = consider_filters(random, [&](const WorldFilter& filter) {
         compare(some_inputs(random, 100, 8.0), filter);
         // Two of them may be left to the CPU, which has to ignore the same instance.
@@ -179,7 +178,7 @@ TEST_P(WorldQuestions, ConsiderFilters) {
 
 /// A hierarchy of one box, and of none.
 TEST_P(WorldQuestions, OfSmallWorlds) {
-    Random random(seed + 6000);
+    Random random(world_questions_seed + 6000);
     EXPECT_EQ(compare(some_inputs(random, 10, 2.0)), 0U);
     EXPECT_EQ(compare({}), 0U);
     const InstanceHandle only = add(add_shape(star(random, 5, 0.5)), {});
@@ -191,7 +190,7 @@ TEST_P(WorldQuestions, OfSmallWorlds) {
 
 /// Shapes that are too small for single precision.
 TEST_P(WorldQuestions, OfTinyShapesAreLeftToTheCpu) {
-    Random random(seed + 7000);
+    Random random(world_questions_seed + 7000);
     const ShapeHandle tiny = add_shape(scaled_and_moved(star(random, 9, 0.5), 1e-11, {}));
     for (int i = 0; i < 20; ++i) {
         add(tiny, any_pose(random, 1e-10));
@@ -202,7 +201,7 @@ TEST_P(WorldQuestions, OfTinyShapesAreLeftToTheCpu) {
 
 /// Also where the CPU answers by itself, and of a shape that is removed.
 TEST_P(WorldQuestions, TellOfTheWorldAsItWas) {
-    Random random(seed + 8000);
+    Random random(world_questions_seed + 8000);
     std::vector<InstanceHandle> added = add_tiles();
     const ShapeHandle deforming = add_shape(star(random, 30, 0.5));
     added.push_back(add(deforming, {{3.0, 3.0}, 0.0}));
@@ -238,7 +237,7 @@ TEST_P(WorldQuestions, TellOfTheWorldAsItWas) {
 
 TEST_P(WorldQuestions, AreReadyInTime) {
     add_tiles();
-    Random random(seed + 9000);
+    Random random(world_questions_seed + 9000);
     const Inputs inputs = any_of_tiles(random);
     WorldRequest request;
     EXPECT_FALSE(request.is_ready());
@@ -255,7 +254,7 @@ TEST_P(WorldQuestions, AreReadyInTime) {
 
 /// What was uploaded of one is of no use for the other.
 TEST_P(WorldQuestions, OfTwoWorldsInTurns) {
-    Random random(seed + 10000);
+    Random random(world_questions_seed + 10000);
     add_tiles();
     const Inputs inputs = any_of_tiles(random);
     Expected<World> other = World::create(context());
@@ -278,7 +277,7 @@ TEST_P(WorldQuestions, DoNotDependOnJobs) {
     ASSERT_TRUE(context.has_value()) << context.error().text();
     Expected<World> world = World::create(*context);
     ASSERT_TRUE(world.has_value()) << world.error().text();
-    Random random(seed + 11000);
+    Random random(world_questions_seed + 11000);
     ShapeHandle last;
     for (const Rings& rings : some_shapes(random)) {
         last = *context->add_shape(rings);
@@ -296,7 +295,7 @@ TEST_P(WorldQuestions, DoNotDependOnJobs) {
 
 TEST_P(WorldQuestions, AreRefusedByName) {
     add_tiles();
-    Random random(seed + 12000);
+    Random random(world_questions_seed + 12000);
     const Inputs inputs = any_of_tiles(random);
     const char* const names[] = {"cast_rays", "find_nearest", "test_poses"};
     const std::string name = names[static_cast<std::size_t>(kind())];
@@ -346,7 +345,7 @@ TEST_P(WorldQuestions, AreRefusedByName) {
 /// A call that limits end fails as a whole, and the next one answers as if nothing had been.
 TEST_P(WorldQuestions, EndAtTheirLimits) {
     add_tiles();
-    Random random(seed + 13000);
+    Random random(world_questions_seed + 13000);
     const Inputs inputs = any_of_tiles(random);
     const Answers expected = answers_to(inputs);
     const std::uint64_t cuts = cut_everywhere(dense, [&](std::uint64_t at) {

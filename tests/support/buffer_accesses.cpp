@@ -249,11 +249,6 @@ void VKAPI_CALL barrier(VkCommandBuffer commands, VkPipelineStageFlags source,
                                                              buffers, image_count, images);
 }
 
-template <class Function>
-PFN_vkVoidFunction erased(Function function) {
-    return reinterpret_cast<PFN_vkVoidFunction>(function);
-}
-
 }  // namespace
 
 Lies BufferAccesses::lies() {

@@ -21,7 +21,8 @@ void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties* 
     }
 }
 
-void VKAPI_CALL memory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* result) {
+void VKAPI_CALL memory_properties(VkPhysicalDevice device,
+                                  VkPhysicalDeviceMemoryProperties* result) {
     true_instance_function<PFN_vkGetPhysicalDeviceMemoryProperties>(
         "vkGetPhysicalDeviceMemoryProperties")(device, result);
     if (lies.memory) {
@@ -64,18 +65,13 @@ PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const char* name)
                                                 "vkGetDeviceProcAddr")(device, name);
 }
 
-template <class Function>
-PFN_vkVoidFunction erased(Function function) {
-    return reinterpret_cast<PFN_vkVoidFunction>(function);
-}
-
 PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance, const char* name) {
     if (const auto lie = lies.entry_points.find(name); lie != lies.entry_points.end()) {
         return lie->second;
     }
     const std::map<std::string, PFN_vkVoidFunction> fakes{
         {"vkGetPhysicalDeviceProperties", erased(&properties)},
-        {"vkGetPhysicalDeviceMemoryProperties", erased(&memory)},
+        {"vkGetPhysicalDeviceMemoryProperties", erased(&memory_properties)},
         {"vkGetPhysicalDeviceFormatProperties", erased(&format)},
         {"vkGetPhysicalDeviceQueueFamilyProperties", erased(&queue_families)},
         {"vkGetDeviceProcAddr", erased(&device_function)},

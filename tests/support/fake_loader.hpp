@@ -19,6 +19,12 @@ struct Lies {
     std::map<std::string, PFN_vkVoidFunction> entry_points;
 };
 
+/// A function as a loader returns it.
+template <class Function>
+[[nodiscard]] PFN_vkVoidFunction erased(Function function) {
+    return reinterpret_cast<PFN_vkVoidFunction>(function);
+}
+
 /// During its lifetime, host() returns the original host with the lies applied. One at a time:
 /// entry points carry no user data, so the lies are global.
 class FakeLoader {

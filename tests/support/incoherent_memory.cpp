@@ -96,11 +96,6 @@ VkResult VKAPI_CALL invalidate(VkDevice device, std::uint32_t count,
     return result;
 }
 
-template <class Function>
-PFN_vkVoidFunction erased(Function function) {
-    return reinterpret_cast<PFN_vkVoidFunction>(function);
-}
-
 }  // namespace
 
 Lies incoherent_memory() {

@@ -1,4 +1,5 @@
 #include <dlfcn.h>
+#include <tests/support/host_gpu.hpp>
 #include <tests/support/vulkan_host.hpp>
 
 #include <algorithm>
@@ -14,12 +15,6 @@ constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
 [[noreturn]] void fail(const std::string& message) {
     throw std::runtime_error("Vulkan test host: " + message);
-}
-
-void require(VkResult result, const char* call) {
-    if (result != VK_SUCCESS) {
-        fail(std::string(call) + " failed with VkResult " + std::to_string(result));
-    }
 }
 
 /// The features in both.

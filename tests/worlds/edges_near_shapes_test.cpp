@@ -14,8 +14,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The distance of an edge from a shape, by a loop over all its edges.
 Wide distance_of(const PlacedRings& shape, const WideEdge& edge) {
     if (shape.signed_distance(edge.from) <= 0) {

@@ -10,13 +10,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-bool equal(const Clearance& a, const Clearance& b) {
-    return a.distance == b.distance && a.error_bound == b.error_bound && a.instance == b.instance &&
-           a.point == b.point && a.nearest == b.nearest && a.direction == b.direction;
-}
-
 /// The clearances of a shape from each instance that passes, in the order of adding, as if it were
 /// alone in the world.
 std::vector<std::vector<Clearance>> clearances_from_each(Scene& scene, ShapeHandle shape,

@@ -10,8 +10,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// What a point is as far as, by brute force.
 struct Candidate {
     Wide distance;
@@ -161,7 +159,7 @@ TEST_P(WorldNearest, IsThatOfTheBruteForce) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, WorldNearest, testing::Range(0, scene_kinds));
 
-std::vector<Placement> squares(std::initializer_list<Vector2> corners) {
+std::vector<Placement> placed_squares(std::initializer_list<Vector2> corners) {
     std::vector<Placement> placements;
     for (const Vector2& corner : corners) {
         placements.push_back({"unit square", rectangle({0.0, 0.0}, {1.0, 1.0}), {corner, 0.0}});
@@ -170,8 +168,8 @@ std::vector<Placement> squares(std::initializer_list<Vector2> corners) {
 }
 
 TEST(WorldNearestTies, GoToTheInstanceAddedFirst) {
-    // Four squares around (0, 0), and the last two once more.
-    Scene scene(squares({{1, 1}, {-2, 1}, {-2, -2}, {1, -2}, {-2, -2}, {1, -2}}));
+    // Four placed_squares around (0, 0), and the last two once more.
+    Scene scene(placed_squares({{1, 1}, {-2, 1}, {-2, -2}, {1, -2}, {-2, -2}, {1, -2}}));
     for (std::uint32_t count = 1; count <= 7; ++count) {
         NearestQuery query;
         query.count = count;
@@ -190,7 +188,7 @@ TEST(WorldNearestTies, GoToTheInstanceAddedFirst) {
 }
 
 TEST(WorldNearestTies, GoToTheEdgeOfLowestIndex) {
-    Scene scene(squares({{0, 0}, {0, 0}}));
+    Scene scene(placed_squares({{0, 0}, {0, 0}}));
     NearestQuery query;
     query.kind = NearestKind::edges;
     for (std::uint32_t count = 1; count <= 8; ++count) {
@@ -208,7 +206,7 @@ TEST(WorldNearestTies, GoToTheEdgeOfLowestIndex) {
 }
 
 TEST(WorldNearestTies, WithinAnInstanceGoToTheEdgeOfLowestIndex) {
-    Scene scene(squares({{0, 0}}));
+    Scene scene(placed_squares({{0, 0}}));
     NearestHit hit;
     const Vector2 middle{0.5, 0.5};
     ASSERT_TRUE(scene.world().find_nearest({}, {&middle, 1}, {&hit, 1}).ok());
@@ -218,7 +216,7 @@ TEST(WorldNearestTies, WithinAnInstanceGoToTheEdgeOfLowestIndex) {
 }
 
 TEST(WorldNearestTies, HaveThoseInsideFirstTheDeepestAtTheHead) {
-    std::vector<Placement> placements = squares({{3, 0}, {0, 0}});
+    std::vector<Placement> placements = placed_squares({{3, 0}, {0, 0}});
     placements.push_back({"large", rectangle({-5.0, -5.0}, {6.0, 6.0}), {}});
     Scene scene(placements);
     NearestQuery query;
@@ -239,7 +237,7 @@ TEST(WorldNearestTies, HaveThoseInsideFirstTheDeepestAtTheHead) {
 
 /// They are sorted in blocks of 2^18.
 TEST(WorldNearestPoints, OfManyBlocksAreWhereTheyWereAsked) {
-    Scene scene(squares({{0, 0}, {3, 0}, {0, 3}, {3, 3}}));
+    Scene scene(placed_squares({{0, 0}, {3, 0}, {0, 3}, {3, 3}}));
     Random random(91);
     std::vector<Vector2> points((1U << 19U) + 100);
     for (Vector2& point : points) {

@@ -9,8 +9,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Poses at which a shape is likely to be near something: a walk, jumps, and poses of instances.
 std::vector<Pose> poses_around(Random& random, const Scene& scene, const Rectangle& box,
                                int count) {
@@ -161,11 +159,6 @@ void check_depth(const Scene& scene, const std::vector<std::size_t>& met, const 
     const double dy = (clearance.nearest.y - clearance.point.y) / depth;
     EXPECT_NEAR(dx, clearance.direction.x, 1e-14 + 2.0 * bound / depth);
     EXPECT_NEAR(dy, clearance.direction.y, 1e-14 + 2.0 * bound / depth);
-}
-
-bool equal(const Clearance& a, const Clearance& b) {
-    return a.distance == b.distance && a.error_bound == b.error_bound && a.instance == b.instance &&
-           a.point == b.point && a.nearest == b.nearest && a.direction == b.direction;
 }
 
 /// With limits, the answer is that without them, or a limit.

@@ -9,7 +9,6 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 const double bad_numbers[] = {nan_value, infinity, -infinity, 1.1 * largest_coordinate,
                               -1.1 * largest_coordinate};

@@ -173,7 +173,6 @@ std::vector<Placement> make_scene(SceneKind kind, std::uint64_t seed) {
 }
 
 Rectangle box_of(const std::vector<Placement>& placements) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Rectangle box{{infinity, infinity}, {-infinity, -infinity}};
     for (const Placement& placement : placements) {
         const PlacedRings placed(placement.rings, placement.pose);

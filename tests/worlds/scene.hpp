@@ -7,6 +7,7 @@
 #include <tests/support/polygons.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,13 @@
 /// \file Worlds of which the test knows what is in them.
 
 namespace nearfield::test {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+[[nodiscard]] inline bool equal(const Clearance& a, const Clearance& b) {
+    return a.distance == b.distance && a.error_bound == b.error_bound && a.instance == b.instance &&
+           a.point == b.point && a.nearest == b.nearest && a.direction == b.direction;
+}
 
 /// The number of random cases: `usual`, or the environment variable NEARFIELD_TEST_CASES.
 [[nodiscard]] int world_cases(int usual);

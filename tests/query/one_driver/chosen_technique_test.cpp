@@ -8,7 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 1618;
+constexpr std::uint64_t chosen_technique_seed = 1618;
 
 /// Which technique answers, and what none can.
 using ChosenTechnique = QueryTest;
@@ -23,7 +23,7 @@ Settings never_a_device() {
 TEST_F(ChosenTechnique, AutomaticIsTheCpuForWhatItAnswers) {
     Expected<Context> made = Context::create(host_device(), never_a_device());
     ASSERT_TRUE(made.has_value()) << made.error().text();
-    Random random(seed);
+    Random random(chosen_technique_seed);
     const PlacedPair pair(
         *made,
         {{"A", star(random, 9, 0.5)}, {"B", star(random, 9, 0.5)}, {}, {{0.5, 0.2}, 0.0}, 0.05},

@@ -3,7 +3,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 2718;
+constexpr std::uint64_t containment_lattice_seed = 2718;
 
 /// Unions of the cells of a lattice, whose closed sets contain each other exactly if their cells
 /// do: coincident edges, holes that are filled exactly, islands, corners that touch.
@@ -89,7 +89,7 @@ private:
 TEST_F(ContainmentQueries, OfCellsIsThatOfTheirSets) {
     int inside = 0;
     int clear = 0;
-    for_each_case(seed, 1500, [&](Random& random) {
+    for_each_case(containment_lattice_seed, 1500, [&](Random& random) {
         const Lattice::Cells in_b = Lattice::any(random, random.between(0.3, 0.98));
         Lattice::Cells in_a = Lattice::any(random, random.between(0.02, 0.5));
         const double part = random.whole(0, 2) == 0 ? 1.0 : 1.0 / 3.0;  // side of A's cells

@@ -25,7 +25,7 @@ using oracle::ShapeOracle;
 inline constexpr double certain_part = 1.0 / 16.0;
 
 /// A place on a shape's boundary as a result states it.
-struct Place {
+struct BoundaryPlace {
     Vector2 point;
     Feature feature;
 };
@@ -119,7 +119,7 @@ protected:
     }
 
     /// The point lies on the boundary and, at a clearance, on the feature.
-    static void check_place(const ShapeOracle& shape, const Place& place,
+    static void check_place(const ShapeOracle& shape, const BoundaryPlace& place,
                             const ContainmentResult& result) {
         EXPECT_LE(shape.nearest(place.point).distance, result.error_bound);
         if (result.clearance == 0.0) {

@@ -3,18 +3,18 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 2718;
+constexpr std::uint64_t containment_seed = 2718;
 
 TEST_F(ContainmentQueries, HoldForRandomPairs) {
     int inside = 0;
-    for_each_case(seed, 400,
+    for_each_case(containment_seed, 400,
                   [&](Random& random) { inside += check(nested_pair(random)).inside ? 1 : 0; });
     EXPECT_GT(inside, random_cases(400) / 20);
     EXPECT_LT(inside, random_cases(400) / 2);
 }
 
 TEST_F(ContainmentQueries, HoldForEveryFamilyInOthers) {
-    const std::vector<NamedRings> shapes = every_family(seed);
+    const std::vector<NamedRings> shapes = every_family(containment_seed);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         for (const std::size_t apart : {1U, 4U, 6U}) {
             const NamedRings& a = shapes[i];
@@ -28,7 +28,7 @@ TEST_F(ContainmentQueries, HoldForEveryFamilyInOthers) {
 }
 
 TEST_F(ContainmentQueries, HoldForDegenerateShapes) {
-    const std::vector<NamedRings> shapes = degenerate_shapes(context(), 24, seed);
+    const std::vector<NamedRings> shapes = degenerate_shapes(context(), 24, containment_seed);
     ASSERT_GE(shapes.size(), 6U);
     for (const NamedRings& shape : shapes) {
         EXPECT_TRUE(check(Pair{shape, shape, {}, {}, 0.1}).inside) << shape.name;
@@ -73,7 +73,7 @@ TEST_F(ContainmentQueries, OfKnownShapes) {
 }
 
 TEST_F(ContainmentQueries, RigidMotionsOfBothLeaveTheAnswer) {
-    for_each_case(seed + 1, 150, [&](Random& random) {
+    for_each_case(containment_seed + 1, 150, [&](Random& random) {
         const Pair pair = nested_pair(random);
         const ContainmentResult rest = ask(pair);
         const double angle = random.between(-4.0, 4.0);
@@ -99,7 +99,7 @@ TEST_F(ContainmentQueries, RigidMotionsOfBothLeaveTheAnswer) {
 }
 
 TEST_F(ContainmentQueries, StarsLieInGrownCopiesAndNotInShrunkOnes) {
-    for_each_case(seed + 2, 40, [&](Random& random) {
+    for_each_case(containment_seed + 2, 40, [&](Random& random) {
         const Rings shape = star(random, random.whole(3, 300), random.between(0.1, 0.9));
         const Pose pose{{random.between(-9.0, 9.0), random.between(-9.0, 9.0)},
                         random.between(-4.0, 4.0)};
@@ -123,7 +123,7 @@ TEST_F(ContainmentQueries, StarsLieInGrownCopiesAndNotInShrunkOnes) {
 }
 
 TEST_F(ContainmentQueries, AShapeIsInItselfHoweverItsEdgesAreDivided) {
-    for_each_case(seed + 5, 400, [&](Random& random) {
+    for_each_case(containment_seed + 5, 400, [&](Random& random) {
         Pair pair = any_pair(random);
         pair.b.rings = with_collinear_runs(random, pair.a.rings, random.between(0.1, 1.0));
         pair.pose_b = pair.pose_a;
@@ -135,7 +135,7 @@ TEST_F(ContainmentQueries, AShapeIsInItselfHoweverItsEdgesAreDivided) {
 
 TEST_F(ContainmentQueries, ClearanceIsHowFarAMayGo) {
     int tried = 0;
-    for_each_case(seed + 3, 300, [&](Random& random) {
+    for_each_case(containment_seed + 3, 300, [&](Random& random) {
         Pair pair = nested_pair(random);
         const Pose start = pair.pose_a;
         const ContainmentResult rest = ask(pair);
@@ -163,7 +163,7 @@ TEST_F(ContainmentQueries, ClearanceIsHowFarAMayGo) {
 }
 
 TEST_F(ContainmentQueries, AreTransitiveAndClearancesAddUp) {
-    for_each_case(seed + 4, 100, [&](Random& random) {
+    for_each_case(containment_seed + 4, 100, [&](Random& random) {
         const Rings inner = star(random, random.whole(3, 60), 0.3);
         const Rings middle =
             scaled_and_moved(star(random, random.whole(3, 60), 0.6), random.scale(1.0, 8.0), {});

@@ -12,11 +12,11 @@
 namespace nearfield::test {
 namespace {
 
-const std::vector<Vector2> square{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
+const std::vector<Vector2> unit_ring{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
 const std::vector<Vector2> triangle{{-0.8, -0.5}, {0.9, -0.4}, {0.1, 1.1}};
 
 struct Shapes {
-    explicit Shapes(Context& context) : a(add(context, square)), b(add(context, triangle)) {}
+    explicit Shapes(Context& context) : a(add(context, unit_ring)), b(add(context, triangle)) {}
 
     static ShapeHandle add(Context& context, const std::vector<Vector2>& ring) {
         const Ring rings[] = {Ring(ring)};

@@ -10,7 +10,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 32000;
+constexpr std::uint64_t device_pair_parts_for_hosts_seed = 32000;
 constexpr std::uint32_t little = 1U << 20U;
 
 class DevicePairPartsForHosts : public DevicePairPartsTest {
@@ -51,7 +51,7 @@ bool are_alike(const PointData& a, const PointData& b) {
 
 TEST_F(DevicePairPartsForHosts, AreRecordedWithRoomForWhatTheyFound) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed);
+    Random random(device_pair_parts_for_hosts_seed);
     add_crowd(random, 200, 2.5);
     const PenetrationQuery query{.tolerance = 0.02};
     const int dispatches = dispatches_of_a_part(query);
@@ -84,7 +84,7 @@ TEST_F(DevicePairPartsForHosts, AreRecordedWithRoomForWhatTheyFound) {
 /// The parts follow one another.
 TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 1);
+    Random random(device_pair_parts_for_hosts_seed + 1);
     add_crowd(random, 140, 3.0);
     for (const bool records : {true, false}) {
         const PenetrationQuery query{.tolerance = 0.05,
@@ -115,7 +115,7 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
 /// Each part has all records that its rows name, whose instances may be those of other parts.
 TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 2);
+    Random random(device_pair_parts_for_hosts_seed + 2);
     add_crowd(random, 60, 2.0);
     const ContactQuery query{.tolerance = 0.1, .contact_distance = 0.05, .on_device = true};
     const int dispatches = dispatches_of_a_part(query);
@@ -151,7 +151,7 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
 /// The host's shaders have to reach all that stays.
 TEST_F(DevicePairPartsForHosts, RefuseWhatTheHostCannotReach) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 3);
+    Random random(device_pair_parts_for_hosts_seed + 3);
     add_crowd(random, 250, 2.5);
     PairTable<PenetrationQuery> table({.tolerance = 0.02, .on_device = true}, on_device);
     const Status status = small_world().update(table);

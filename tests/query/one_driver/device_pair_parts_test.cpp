@@ -8,9 +8,9 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 31000;
+constexpr std::uint64_t device_pair_parts_seed = 31000;
 /// Of a buffer: as far as a few thousand pairs of stars.
-constexpr std::uint32_t little = 1U << 20U;
+constexpr std::uint32_t little_memory = 1U << 20U;
 
 class DevicePairParts : public DevicePairPartsTest {
 protected:
@@ -40,8 +40,8 @@ protected:
     }
     template <class Query>
     void expect_the_same_in_parts(const Query& query, int stars, int least_parts) {
-        ASSERT_NO_FATAL_FAILURE(make_small(little));
-        Random random(seed);
+        ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
+        Random random(device_pair_parts_seed);
         add_crowd(random, stars, 3.0);
         const int dispatches = dispatches_of_a_part(query);
         PairTable<Query> whole = table_of(query);
@@ -90,8 +90,8 @@ TEST_F(DevicePairParts, FindTheSameClosestPoints) {
 
 /// Shapes of all kinds, among them some whose pairs are left to the CPU.
 TEST_F(DevicePairParts, FindTheSameAmongAllShapes) {
-    ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 1);
+    ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
+    Random random(device_pair_parts_seed + 1);
     for (const Rings& rings : some_shapes(random)) {
         const std::size_t shape = add_shape_to_both(rings);
         for (int i = 0; i < 12; ++i) {
@@ -118,8 +118,8 @@ class DivisionOfPairs : public DevicePairParts {};
 
 /// Few of the instances have most of the pairs.
 TEST_F(DivisionOfPairs, AreDividedWhereThePairsAre) {
-    ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 2);
+    ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
+    Random random(device_pair_parts_seed + 2);
     add_crowd(random, 60, 40.0);
     add_crowd(random, 120, 1.0);
     add_crowd(random, 200, 40.0);
@@ -133,8 +133,8 @@ TEST_F(DivisionOfPairs, AreDividedWhereThePairsAre) {
 
 /// Worlds of which instances are removed and added again.
 TEST_F(DivisionOfPairs, FollowTheInstances) {
-    ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 3);
+    ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
+    Random random(device_pair_parts_seed + 3);
     const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
     const int dispatches = dispatches_of_a_part(query);
     PairTable<PenetrationQuery> whole(query, on_device);
@@ -154,8 +154,8 @@ TEST_F(DivisionOfPairs, FollowTheInstances) {
 
 /// What has moved apart is searched at once again.
 TEST_F(DivisionOfPairs, AreJoinedWherePairsAreFew) {
-    ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 4);
+    ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
+    Random random(device_pair_parts_seed + 4);
     add_crowd(random, 250, 2.0);
     const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
     const int dispatches = dispatches_of_a_part(query);
@@ -175,8 +175,8 @@ TEST_F(DivisionOfPairs, AreJoinedWherePairsAreFew) {
 }
 
 TEST_F(DivisionOfPairs, MakeNothingInASteadyState) {
-    ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 5);
+    ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
+    Random random(device_pair_parts_seed + 5);
     add_crowd(random, 200, 2.5);
     const PenetrationQuery query{.tolerance = 0.02};
     const int dispatches = dispatches_of_a_part(query);
@@ -213,7 +213,7 @@ TEST_F(DivisionOfPairs, KeepToTheLimitOfMemory) {
     Settings settings;
     settings.memory_limit = 6U << 20U;
     ASSERT_NO_FATAL_FAILURE(make_small(1U << 27U, settings));
-    Random random(seed + 6);
+    Random random(device_pair_parts_seed + 6);
     add_crowd(random, 250, 2.0);
     const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
     const int dispatches = dispatches_of_a_part(query);
@@ -231,8 +231,8 @@ TEST_F(DivisionOfPairs, KeepToTheLimitOfMemory) {
 
 /// More points of one instance than buffers can hold.
 TEST_F(DivisionOfPairs, RefuseWhatOneInstanceHasTooMuchOf) {
-    ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(seed + 7);
+    ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
+    Random random(device_pair_parts_seed + 7);
     add_crowd(random, 10, 0.5);
     PairTable penetrations(PenetrationQuery{.tolerance = 1e-5}, on_device);
     PairTable contacts(ContactQuery{.tolerance = 1e-5, .contact_distance = 1.0}, on_device);
@@ -251,8 +251,8 @@ TEST_F(DivisionOfPairs, RefuseWhatOneInstanceHasTooMuchOf) {
 TEST_F(DivisionOfPairs, AreTimedTogether) {
     Settings settings;
     settings.timestamps = true;
-    ASSERT_NO_FATAL_FAILURE(make_small(little, settings));
-    Random random(seed + 8);
+    ASSERT_NO_FATAL_FAILURE(make_small(little_memory, settings));
+    Random random(device_pair_parts_seed + 8);
     add_crowd(random, 200, 2.0);
     PairTable<PenetrationQuery> table({.tolerance = 0.02}, on_device);
     ASSERT_TRUE(small_world().update(table).ok());

@@ -13,19 +13,19 @@
 namespace nearfield::test {
 namespace {
 
-struct Counts {
+struct RecordingCounts {
     std::uint64_t allocations_below = 0;  ///< those of the driver
     int objects = 0;                      ///< made or destroyed
     int waits = 0;
     int submissions = 0;
 };
-Counts counted;  // entry points have no user data
+RecordingCounts counted_recording;  // entry points have no user data
 
-void count_call(const test_support::WatchedCall& call) {
-    counted.allocations_below += call.allocations;
-    counted.objects += call.makes() || call.destroys() ? 1 : 0;
-    counted.waits += call.name.starts_with("vkWait") ? 1 : 0;
-    counted.submissions += call.name == "vkQueueSubmit" ? 1 : 0;
+void count_recorded_call(const test_support::WatchedCall& call) {
+    counted_recording.allocations_below += call.allocations;
+    counted_recording.objects += call.makes() || call.destroys() ? 1 : 0;
+    counted_recording.waits += call.name.starts_with("vkWait") ? 1 : 0;
+    counted_recording.submissions += call.name == "vkQueueSubmit" ? 1 : 0;
 }
 
 /// What it costs to record a table of pairs frame by frame.
@@ -33,7 +33,7 @@ class DevicePairRecordingCosts : public DevicePosesTest {
 protected:
     void SetUp() override {
         DevicePosesTest::SetUp();
-        loader_.emplace(host_device(), test_support::watched(host_device(), count_call));
+        loader_.emplace(host_device(), test_support::watched(host_device(), count_recorded_call));
         Settings settings;
         settings.pipelines_on_demand = true;
         Expected<Context> made = Context::create(loader_->host(), settings);
@@ -81,15 +81,15 @@ protected:
     }
     template <class Call>
     static void expect_free(bool is_warm, const Call& call) {
-        counted = {};
+        counted_recording = {};
         const std::uint64_t before = test_support::allocation_count_of_this_thread();
         const bool ok = call();
         const std::uint64_t own = test_support::allocation_count_of_this_thread() - before;
         ASSERT_TRUE(ok);
-        EXPECT_EQ(counted.waits + counted.submissions, 0);
+        EXPECT_EQ(counted_recording.waits + counted_recording.submissions, 0);
         if (is_warm) {
-            EXPECT_EQ(own, counted.allocations_below);
-            EXPECT_EQ(counted.objects, 0);
+            EXPECT_EQ(own, counted_recording.allocations_below);
+            EXPECT_EQ(counted_recording.objects, 0);
         }
     }
 

@@ -15,7 +15,7 @@ using test_support::HostFrames;
 using test_support::HostGpu;
 using test_support::KeptCommands;
 
-constexpr std::uint64_t seed = 29000;
+constexpr std::uint64_t device_pair_recordings_seed = 29000;
 
 /// Tables of pairs that are recorded into command buffers of the host.
 class DevicePairRecordings : public DevicePosesTest {
@@ -149,7 +149,7 @@ protected:
     /// between.
     template <class Query>
     void leave_residents(const Query& query) {
-        Random random(seed);
+        Random random(device_pair_recordings_seed);
         const std::vector<std::vector<HostPose>> poses{any_poses(random), any_poses(random),
                                                        any_poses(random)};
         PoseBuffer buffer = make_buffer();
@@ -211,7 +211,7 @@ protected:
     /// Recorded once, executed and collected at each of some poses.
     template <class Query, class... Reach>
     void collect_rows(const Query& query, Reach... reach) {
-        Random random(seed + 1);
+        Random random(device_pair_recordings_seed + 1);
         const std::vector<std::vector<HostPose>> poses{any_poses(random), any_poses(random),
                                                        any_poses(random), any_poses(random)};
         PoseBuffer buffer = make_buffer();
@@ -245,7 +245,7 @@ protected:
 };
 
 TEST_F(DevicePairRecordings, LeaveThePairsOfThePosesThatAreThen) {
-    Random random(seed);
+    Random random(device_pair_recordings_seed);
     add_some(random, 2);
     leave_residents(PenetrationQuery{.tolerance = 0.03, .summary_only = true, .on_device = true});
     remove(std::exchange(added_, {}));
@@ -254,7 +254,7 @@ TEST_F(DevicePairRecordings, LeaveThePairsOfThePosesThatAreThen) {
 }
 
 TEST_F(DevicePairRecordings, AreCollectedAsOftenAsTheyAreExecuted) {
-    Random random(seed);
+    Random random(device_pair_recordings_seed);
     add_some(random, 2);
     collect_rows(PenetrationQuery{.tolerance = 0.03});
     collect_rows(PenetrationQuery{.tolerance = 1e-5, .points = PenetrationPoints::vertices});
@@ -266,7 +266,7 @@ TEST_F(DevicePairRecordings, AreCollectedAsOftenAsTheyAreExecuted) {
 
 /// Where validation layers see what one execution leaves to the next.
 TEST_F(DevicePairRecordings, MayFollowThemselvesInOneCommandBuffer) {
-    Random random(seed);
+    Random random(device_pair_recordings_seed);
     add_some(random, 2);
     const std::vector<std::vector<HostPose>> poses{any_poses(random), any_poses(random)};
     PoseBuffer buffer = make_buffer();
@@ -296,7 +296,7 @@ TEST_F(DevicePairRecordings, MayFollowThemselvesInOneCommandBuffer) {
 
 /// Each frame of the host records one of two tables, at poses of the world, and reads the other.
 TEST_F(DevicePairRecordings, TakeTurnsInTheFramesOfAHost) {
-    Random random(seed);
+    Random random(device_pair_recordings_seed);
     add_some(random, 2);
     HostFrames host(host_device(), 2);
     const ContactQuery query{.tolerance = 0.03, .contact_distance = 0.05};

@@ -12,8 +12,8 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 25000;
-constexpr PenetrationQuery penetrations{.tolerance = 0.02};
+constexpr std::uint64_t device_pair_submissions_seed = 25000;
+constexpr PenetrationQuery submitted_penetrations{.tolerance = 0.02};
 /// For the pairs of crowd(): single precision cannot tell how deep some points are.
 constexpr PenetrationQuery close_calls{.tolerance = 1e-5, .points = PenetrationPoints::vertices};
 
@@ -120,15 +120,15 @@ TEST_F(DevicePairSubmissions, TellOfTheWorldAsItWas) {
 
 /// The rows of the frame before can be read while the device works at the next.
 TEST_F(DevicePairSubmissions, TakeTurns) {
-    Random random(seed);
+    Random random(device_pair_submissions_seed);
     std::vector<InstanceHandle> instances;
     for (const Rings& rings : some_shapes(random)) {
         instances.push_back(add(add_shape(rings), any_pose(random, 3.0)));
         instances.push_back(add(world().instance(instances.back())->shape, any_pose(random, 3.0)));
     }
-    PairTable reference(penetrations, on_device);
-    std::array<PairTable<PenetrationQuery>, 2> tables{PairTable(penetrations, on_device),
-                                                      PairTable(penetrations, on_device)};
+    PairTable reference(submitted_penetrations, on_device);
+    std::array<PairTable<PenetrationQuery>, 2> tables{PairTable(submitted_penetrations, on_device),
+                                                      PairTable(submitted_penetrations, on_device)};
     std::optional<Rows> before;
     for (std::size_t frame = 0; frame < 8; ++frame) {
         for (const InstanceHandle instance : instances) {
@@ -163,7 +163,7 @@ TEST_F(DevicePairSubmissions, GrowWhenTheyAreCollected) {
 
 TEST_F(DevicePairSubmissions, AreReadyOnceTheDeviceIsDone) {
     crowd();
-    PairTable table(penetrations, on_device);
+    PairTable table(submitted_penetrations, on_device);
     EXPECT_FALSE(table.is_ready());
     ASSERT_TRUE(world().submit(table).ok());
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
@@ -178,7 +178,7 @@ TEST_F(DevicePairSubmissions, AreReadyOnceTheDeviceIsDone) {
 
 TEST_F(DevicePairSubmissions, AreCollectedOnce) {
     crowd();
-    PairTable table(penetrations, on_device);
+    PairTable table(submitted_penetrations, on_device);
     const Status early = table.collect();
     EXPECT_EQ(early.code(), StatusCode::not_ready) << early.text();
     ASSERT_TRUE(world().submit(table).ok());
@@ -203,7 +203,7 @@ TEST_F(DevicePairSubmissions, OfBadQueriesAreRefused) {
 }
 
 TEST_F(DevicePairSubmissions, OfAnEmptyWorldAreReadyAtOnce) {
-    PairTable table(penetrations, on_device);
+    PairTable table(submitted_penetrations, on_device);
     ASSERT_TRUE(world().submit(table).ok());
     EXPECT_TRUE(table.is_ready());
     ASSERT_TRUE(table.collect().ok());
@@ -235,14 +235,14 @@ TEST_F(DevicePairSubmissions, CutByLimitsAreNone) {
 TEST_F(DevicePairSubmissions, MayBeGivenUp) {
     crowd();
     {
-        PairTable given_up(penetrations, on_device);
+        PairTable given_up(submitted_penetrations, on_device);
         ASSERT_TRUE(world().submit(given_up).ok());
     }
-    PairTable replaced(penetrations, on_device);
+    PairTable replaced(submitted_penetrations, on_device);
     ASSERT_TRUE(world().submit(replaced).ok());
-    replaced = PairTable(penetrations, on_device);
+    replaced = PairTable(submitted_penetrations, on_device);
     EXPECT_EQ(replaced.collect().code(), StatusCode::not_ready);
-    PairTable moved(penetrations, on_device);
+    PairTable moved(submitted_penetrations, on_device);
     ASSERT_TRUE(world().submit(moved).ok());
     PairTable table = std::move(moved);
     ASSERT_TRUE(table.collect().ok());

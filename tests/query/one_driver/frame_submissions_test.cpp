@@ -7,7 +7,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 6000;
+constexpr std::uint64_t frame_submissions_seed = 6000;
 
 TEST_F(Frames, TakeOneSubmissionAndOneWaitEach) {
     make(2);
@@ -77,7 +77,7 @@ TEST_F(Frames, OfSeveralRoundsTakeOneSubmission) {
     Settings settings;
     settings.memory_limit = 16U << 20U;  // an atlas of 256 x 256 cells
     make(settings);
-    Random random(seed);
+    Random random(frame_submissions_seed);
     const Pair pair{
         {"A", star(random, 60, 0.4)}, {"B", with_holes(random, 4)}, {}, {{0.3, 0.1}, 0.2}, 0.003};
     const PlacedPair placed(counted(), pair);
@@ -140,7 +140,7 @@ TEST_F(Frames, OfTenThousandPairsTakeOneSubmission) {
     make(2);
     constexpr int pairs = 10000;
     constexpr double d = 0.1;
-    Random random(seed);
+    Random random(frame_submissions_seed);
     std::vector<ShapeHandle> shapes;
     for (int i = 0; i < 30; ++i) {
         const Expected<ShapeHandle> shape = counted().add_shape(star(random, 9, 0.4));

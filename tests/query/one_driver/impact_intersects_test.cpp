@@ -6,7 +6,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 1210;
+constexpr std::uint64_t impact_intersects_seed = 1210;
 
 /// How deep a vertex of either shape is in the other; below 0 where none is inside.
 double depth(const Moment& moment) {
@@ -37,7 +37,7 @@ bool check_intersects(const MovingPair& moving, const TimeOfImpactResult& result
 TEST_F(TimeOfImpactTest, AHitIntersectsWhereTheShapesWereFoundToTouch) {
     int hits = 0;
     int intersecting = 0;
-    for_each_case(seed, 300, [&](Random& random) {
+    for_each_case(impact_intersects_seed, 300, [&](Random& random) {
         MovingPair moving = any_moving_pair(random);
         if (random.whole(0, 2) == 0) {
             moving = keeping(moving, 0.05);

@@ -9,7 +9,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 3141;
+constexpr std::uint64_t intersection_test_seed = 3141;
 
 class IntersectionTest : public QueryTest {
 protected:
@@ -41,7 +41,7 @@ protected:
 
 TEST_F(IntersectionTest, HoldsForRandomPairs) {
     int meet = 0;
-    for_each_case(seed, 250, [&](Random& random) {
+    for_each_case(intersection_test_seed, 250, [&](Random& random) {
         Pair pair = any_pair(random);
         const double far = random.scale(0.1, 100.0) * pair.tolerance;
         const double direction = random.between(-3.2, 3.2);
@@ -55,7 +55,7 @@ TEST_F(IntersectionTest, HoldsForRandomPairs) {
 
 TEST_F(IntersectionTest, HoldsForEveryFamily) {
     for (const double apart : {0.0, 8.0, 15.0}) {
-        for (Pair& pair : family_pairs(seed)) {
+        for (Pair& pair : family_pairs(intersection_test_seed)) {
             pair.pose_b.translation.x += apart;
             check(std::move(pair));
         }

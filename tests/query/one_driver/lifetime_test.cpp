@@ -5,7 +5,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 1999;
+constexpr std::uint64_t lifetime_seed = 1999;
 
 class Lifetime : public QueryTest {};
 
@@ -20,7 +20,7 @@ void expect_same(const PenetrationResult& a, const PenetrationResult& b) {
 }
 
 TEST_F(Lifetime, AnUpdatedShapeIsAsGoodAsNew) {
-    Random random(seed);
+    Random random(lifetime_seed);
     const Rings first = star(random, 10, 0.4);
     Expected<ShapeHandle> changing = context().add_shape(first);
     Expected<ShapeHandle> still = context().add_shape(coast(random, 400, 0.5));
@@ -49,7 +49,7 @@ TEST_F(Lifetime, AnUpdatedShapeIsAsGoodAsNew) {
 }
 
 TEST_F(Lifetime, ThePointsOfAFieldMayChangeOnceItIsSubmitted) {
-    Random random(seed);
+    Random random(lifetime_seed);
     const Expected<ShapeHandle> shape = context().add_shape(star(random, 20, 0.4));
     ASSERT_TRUE(shape.has_value());
     std::vector<Vector2> points{{0.1, 0.2}, {2.0, -1.0}, {-0.5, 0.6}};
@@ -111,7 +111,7 @@ TEST_F(Lifetime, AHeadlessContextAnswersLikeAHostedOne) {
     ASSERT_TRUE(made.has_value()) << made.error().text();
     Context headless = std::move(*made);
     EXPECT_FALSE(headless.device_name().empty());
-    for (const Pair& pair : family_pairs(seed)) {
+    for (const Pair& pair : family_pairs(lifetime_seed)) {
         SCOPED_TRACE(describe(pair));
         const PlacedPair placed(headless, pair);
         check_penetration(placed, PenetrationPoints::boundary,
@@ -131,7 +131,7 @@ TEST_F(Lifetime, AHeadlessContextNamesTheDeviceItCannotFind) {
 TEST_F(Lifetime, TwoContextsOnOneDeviceDoNotMeet) {
     Expected<Context> second = Context::create(host_device(), on_demand());
     ASSERT_TRUE(second.has_value()) << second.error().text();
-    const std::vector<Pair> pairs = family_pairs(seed + 1);
+    const std::vector<Pair> pairs = family_pairs(lifetime_seed + 1);
     for (std::size_t i = 0; i < 4; ++i) {
         const PlacedPair here(context(), pairs[i]);
         const PlacedPair there(*second, pairs[i]);
@@ -144,7 +144,7 @@ TEST_F(Lifetime, TheGraphDescribesItself) {
     Expected<Context> fresh = Context::create(host_device(), on_demand());
     ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
     EXPECT_TRUE(describe_graph(*fresh, GraphFormat::text)->empty());
-    const PlacedPair pair(*fresh, family_pairs(seed)[3]);
+    const PlacedPair pair(*fresh, family_pairs(lifetime_seed)[3]);
     ASSERT_TRUE(run_alone(*fresh, pair.penetration()).status.ok());
     const auto begins = [&](const char* text, GraphFormat format) {
         const Expected<std::string> graph = describe_graph(*fresh, format);

@@ -9,7 +9,6 @@ namespace nearfield::test {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Refusal : public QueryTest {
 protected:

@@ -9,10 +9,10 @@
 namespace nearfield::test {
 namespace {
 
-const std::vector<Ring> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+const std::vector<Ring> whole_square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
 std::vector<Ring> with_a_bad_number() {
-    std::vector<Ring> rings = square;
+    std::vector<Ring> rings = whole_square;
     rings[0][2].y = std::numeric_limits<double>::quiet_NaN();
     return rings;
 }
@@ -25,7 +25,7 @@ void expect_reason(const Status& status, const std::string& where, const Status&
 
 TEST(RefusedShapes, AreNamedByWhatIsAskedAboutThem) {
     Context context;
-    const auto good = context.add_shape(square);
+    const auto good = context.add_shape(whole_square);
     const auto bad = context.add_shape(with_a_bad_number());
     ASSERT_TRUE(good.has_value());
     ASSERT_FALSE(bad.has_value());
@@ -38,7 +38,7 @@ TEST(RefusedShapes, AreNamedByWhatIsAskedAboutThem) {
     EXPECT_TRUE(separation(good, good).ok());
     expect_reason(separation(bad, good), "shape A", bad.error());
     expect_reason(separation(good, bad), "shape B", bad.error());
-    expect_reason(context.update_shape(bad, square), "update_shape", bad.error());
+    expect_reason(context.update_shape(bad, whole_square), "update_shape", bad.error());
     expect_reason(context.remove_shape(bad), "remove_shape", bad.error());
     const std::vector<Instance> instances{{good}, {bad}};
     expect_reason(context.find_overlapping_boxes(instances, 0.0).error(), "instance 1",
@@ -59,10 +59,10 @@ TEST(RefusedShapes, OfLongAgoAreRefusedWithoutWords) {
     for (int i = 0; i < 63; ++i) {
         EXPECT_FALSE(context.add_shape(std::vector<Ring>()).has_value());
     }
-    const Status forgotten = context.update_shape(first, square);
+    const Status forgotten = context.update_shape(first, whole_square);
     EXPECT_EQ(forgotten.code(), StatusCode::unknown_shape);
     EXPECT_NE(forgotten.message().find("refused by add_shape"), std::string::npos);
-    EXPECT_EQ(context.update_shape(second, square).code(), StatusCode::invalid_shape);
+    EXPECT_EQ(context.update_shape(second, whole_square).code(), StatusCode::invalid_shape);
 }
 
 TEST(RefusedShapes, OfAnotherContextAreOfAnotherContext) {

@@ -11,7 +11,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 8700;
+constexpr std::uint64_t resident_layout_seed = 8700;
 
 /// A shape that may turn, in a context of its own, and one query of each kind of resident output.
 class ResidentLayout : public Resident {
@@ -23,7 +23,7 @@ protected:
         Expected<Context> made = Context::create(host_device(), on_demand(settings));
         ASSERT_TRUE(made.has_value()) << made.error().text();
         made_.emplace(std::move(*made));
-        Random random(seed);
+        Random random(resident_layout_seed);
         shape_ = *made_->add_shape(coast(random, 120, 0.5));
         other_ = *made_->add_shape(with_holes(random, 3));
     }
@@ -261,7 +261,7 @@ struct PosedQueries {
 };
 
 TEST_F(ResidentLayout, SizesStayWithinTheBoundOfAllPoses) {
-    Random random(seed + 1);
+    Random random(resident_layout_seed + 1);
     const Rings rings = coast(random, 200, 0.3);
     const ShapeHandle moving = *made().add_shape(rings);
     const Instance fixed{*made().add_shape(rectangle({-2, -2}, {2, 2})), {}};
@@ -360,7 +360,7 @@ TEST_F(ResidentLayout, TimestampsCanBeTurnedOff) {
     settings.timestamps = false;
     Expected<Context> untimed = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(untimed.has_value()) << untimed.error().text();
-    Random random(seed);
+    Random random(resident_layout_seed);
     shape_ = *untimed->add_shape(coast(random, 120, 0.5));
     other_ = *untimed->add_shape(with_holes(random, 3));
     Results results;

@@ -35,14 +35,14 @@ void expect_none(const std::variant<Queries...>* /*kinds*/, const Results& resul
     (expect(results[QueryHandle<Queries>{index}]), ...);
 }
 
-constexpr const AnyQuery* every_kind = nullptr;
+constexpr const AnyQuery* every_query_kind = nullptr;
 
 TEST(Results, HaveNoneForAHandleOutOfRange) {
     Results results;
-    expect_none(every_kind, results, 0, "out of range");
+    expect_none(every_query_kind, results, 0, "out of range");
     results.results.emplace_back(SeparationResult{});
-    expect_none(every_kind, results, 1, "out of range");
-    expect_none(every_kind, results, QueryHandle<SeparationQuery>().index, "out of range");
+    expect_none(every_query_kind, results, 1, "out of range");
+    expect_none(every_query_kind, results, QueryHandle<SeparationQuery>().index, "out of range");
     EXPECT_TRUE(results[QueryHandle<SeparationQuery>{0}].status.ok());
 }
 

@@ -12,7 +12,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 91'000;
+constexpr std::uint64_t ring_views_seed = 91'000;
 
 /// The numbers of a ring at a stride, with what must not be read in between.
 template <class Number>
@@ -57,7 +57,7 @@ protected:
 };
 
 TEST_F(RingViews, AreTheSameShapesAsRings) {
-    for_each_case(seed, 20, [&](Random& random) {
+    for_each_case(ring_views_seed, 20, [&](Random& random) {
         const Rings rings = with_holes(random, 3);
         const Rings rounded = in_single_precision(rings);
         for (const std::size_t stride : {2U, 3U, 8U}) {
@@ -117,7 +117,7 @@ TEST_F(RingViews, AreRefusedByName) {
 }
 
 TEST_F(RingViews, UpdatesOfAFrameAllocateNothing) {
-    Random random(seed);
+    Random random(ring_views_seed);
     const std::vector<float> numbers = spread<float>(coast(random, 300, 0.5)[0], 4);
     const RingView rings[] = {RingView(numbers, 4)};
     const Expected<ShapeHandle> shape = add(rings);

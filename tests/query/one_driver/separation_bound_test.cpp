@@ -14,7 +14,7 @@ namespace {
 
 using oracle::ShapeOracle;
 
-constexpr std::uint64_t seed = 1833;
+constexpr std::uint64_t separation_bound_seed = 1833;
 
 /// Translations that move a vertex of one shape onto an edge of the other.
 struct Wall {
@@ -121,7 +121,7 @@ protected:
 
 TEST_F(SeparationBound, TheLeastOfAllLiesBetweenBoundAndLength) {
     int intersect = 0;
-    for_each_case(seed, 16, [&](Random& random) {
+    for_each_case(separation_bound_seed, 16, [&](Random& random) {
         const auto shape = [&random] {
             switch (random.whole(0, 2)) {
                 case 0:
@@ -158,7 +158,7 @@ TEST_F(SeparationBound, TheLeastOfAllLiesBetweenBoundAndLength) {
 
 TEST_F(SeparationBound, IsCloseForOrdinaryShapes) {
     for (const int edges : {10, 50, 200}) {
-        for_each_case(seed + 10, 4, [&](Random& random) {
+        for_each_case(separation_bound_seed + 10, 4, [&](Random& random) {
             const Pair pair{
                 {"A", star(random, edges, 0.5)},
                 {"B", coast(random, edges, 0.3)},
@@ -174,7 +174,7 @@ TEST_F(SeparationBound, IsCloseForOrdinaryShapes) {
 }
 
 TEST_F(SeparationBound, IsCloseForCombsSpiralsAndSpikes) {
-    for_each_case(seed + 20, 3, [&](Random& random) {
+    for_each_case(separation_bound_seed + 20, 3, [&](Random& random) {
         const auto pose = [&random] {
             return Pose{{random.between(-0.7, 0.7), random.between(-0.7, 0.7)},
                         random.between(-3.0, 3.0)};
@@ -192,7 +192,7 @@ TEST_F(SeparationBound, IsCloseForCombsSpiralsAndSpikes) {
 }
 
 TEST_F(SeparationBound, TheWorkIsBounded) {
-    Random random(seed);
+    Random random(separation_bound_seed);
     const std::vector<Pair> pairs{
         {{"A", comb(60)}, {"B", comb(60)}, {{0.1, 0.3}, 3.0}, {}, 1e-4},
         {{"A", spiral(4.0, 0.05, 150)}, {"B", spiral(3.0, 0.1, 90)}, {{0.3, 0.1}, 1.0}, {}, 1e-4},

@@ -15,7 +15,7 @@ namespace {
 
 using oracle::ShapeOracle;
 
-constexpr std::uint64_t seed = 1732;
+constexpr std::uint64_t separation_vector_seed = 1732;
 
 Pose moved(const Pose& pose, const Vector2& by) {
     return {oracle::plus(pose.translation, by), pose.angle};
@@ -120,7 +120,7 @@ private:
 };
 
 TEST_F(SeparationVectorTest, ConvexShapesGoTheirExactDepth) {
-    for_each_case(seed, 60, [&](Random& random) {
+    for_each_case(separation_vector_seed, 60, [&](Random& random) {
         Pair pair{
             {"A", convex(random, random.whole(6, 20))},
             {"B", convex(random, random.whole(6, 20))},
@@ -139,15 +139,15 @@ TEST_F(SeparationVectorTest, ConvexShapesGoTheirExactDepth) {
 
 TEST_F(SeparationVectorTest, HoldsForRandomPairs) {
     int intersect = 0;
-    for_each_case(seed + 500, 40, [&](Random& random) {
+    for_each_case(separation_vector_seed + 500, 40, [&](Random& random) {
         intersect += check(any_pair(random), random, 25).intersects ? 1 : 0;
     });
     EXPECT_GT(intersect, random_cases(40) / 4);
 }
 
 TEST_F(SeparationVectorTest, HoldsForDegeneratePolygons) {
-    Random random(seed);
-    const std::vector<NamedRings> shapes = degenerate_shapes(context(), 40, seed);
+    Random random(separation_vector_seed);
+    const std::vector<NamedRings> shapes = degenerate_shapes(context(), 40, separation_vector_seed);
     int intersect = 0;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const Pair pair{shapes[i], shapes[(i + 5) % shapes.size()], {}, {{1.3, -0.7}, 0.1}, 0.7};
@@ -159,7 +159,7 @@ TEST_F(SeparationVectorTest, HoldsForDegeneratePolygons) {
 TEST_F(SeparationVectorTest, NoShorterOneIsFoundByForce) {
     int within = 0;
     constexpr int cases = 12;
-    for_each_case(seed + 900, cases, [&](Random& random) {
+    for_each_case(separation_vector_seed + 900, cases, [&](Random& random) {
         const auto shape = [&] {
             return random.whole(0, 1) == 0 ? star(random, random.whole(5, 12), 0.3)
                                            : with_holes(random, 2);
@@ -190,7 +190,7 @@ TEST_F(SeparationVectorTest, NoShorterOneIsFoundByForce) {
 }
 
 TEST_F(SeparationVectorTest, KnownWays) {
-    Random random(seed);
+    Random random(separation_vector_seed);
     const Rings square = rectangle({-1, -1}, {1, 1});
     const auto pair = [](const Rings& a, const Rings& b, const Vector2& at) {
         return Pair{{"A", a}, {"B", b}, {at, 0.0}, {}, 1e-3};
@@ -219,7 +219,7 @@ TEST_F(SeparationVectorTest, KnownWays) {
 
 TEST_F(SeparationVectorTest, OfThinBarsThatCrossTheBoundIsCloseToo) {
     const Rings bar = rectangle({-5, -0.1}, {5, 0.1});
-    for_each_case(seed + 1200, 20, [&](Random& random) {
+    for_each_case(separation_vector_seed + 1200, 20, [&](Random& random) {
         const Pair pair{
             {"A", bar},
             {"B", bar},
@@ -233,7 +233,7 @@ TEST_F(SeparationVectorTest, OfThinBarsThatCrossTheBoundIsCloseToo) {
 }
 
 TEST_F(SeparationVectorTest, OutlinesComeApart) {
-    Random random(seed);
+    Random random(separation_vector_seed);
     const std::vector<NamedRings> outlines = read_outlines(NEARFIELD_TEST_DATA);
     for (std::size_t i = 0; i < outlines.size(); i += 2) {
         const Pair pair{
@@ -243,7 +243,7 @@ TEST_F(SeparationVectorTest, OutlinesComeApart) {
 }
 
 TEST_F(SeparationVectorTest, LawsOfSymmetry) {
-    for_each_case(seed + 1500, 25, [&](Random& random) {
+    for_each_case(separation_vector_seed + 1500, 25, [&](Random& random) {
         Pair pair = any_pair(random);
         SCOPED_TRACE(describe(pair));
         const SeparationVectorResult result = ask(pair);

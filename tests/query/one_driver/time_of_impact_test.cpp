@@ -8,7 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t seed = 1414;
+constexpr std::uint64_t time_of_impact_seed = 1414;
 
 bool brackets_overlap(const TimeOfImpactResult& first, const TimeOfImpactResult& second) {
     constexpr double rounding = 1e-9;
@@ -19,7 +19,7 @@ bool brackets_overlap(const TimeOfImpactResult& first, const TimeOfImpactResult&
 TEST_F(TimeOfImpactTest, HoldsForRandomMotions) {
     int hits = 0;
     int separated = 0;
-    for_each_case(seed, 60, [&](Random& random) {
+    for_each_case(time_of_impact_seed, 60, [&](Random& random) {
         const TimeOfImpactResult result = check(any_moving_pair(random), 30);
         hits += result.state == ImpactState::hit ? 1 : 0;
         separated += result.state == ImpactState::separated ? 1 : 0;
@@ -31,7 +31,7 @@ TEST_F(TimeOfImpactTest, HoldsForRandomMotions) {
 TEST_F(TimeOfImpactTest, HoldsForRandomMotionsThatKeepADistance) {
     int hits = 0;
     int started = 0;
-    for_each_case(seed + 500, 40, [&](Random& random) {
+    for_each_case(time_of_impact_seed + 500, 40, [&](Random& random) {
         const MovingPair moving = any_moving_pair(random);
         const double size = std::max(moving.pair.tolerance, 0.01);
         const double distance = size * random.scale(1e-3, 30.0);
@@ -47,7 +47,7 @@ TEST_F(TimeOfImpactTest, HoldsForRandomMotionsThatKeepADistance) {
 }
 
 TEST_F(TimeOfImpactTest, HoldsForEveryFamily) {
-    for (Pair& pair : family_pairs(seed)) {
+    for (Pair& pair : family_pairs(time_of_impact_seed)) {
         MovingPair moving{pair, pair.pose_a, pair.pose_b};
         moving.pair.pose_a.translation = {-40.0, 1.0};
         moving.end_a = {{30.0, -2.0}, moving.end_a.angle + 2.0};
@@ -56,7 +56,7 @@ TEST_F(TimeOfImpactTest, HoldsForEveryFamily) {
 }
 
 TEST_F(TimeOfImpactTest, HoldsForDegeneratePolygons) {
-    const std::vector<NamedRings> shapes = degenerate_shapes(context(), 40, seed);
+    const std::vector<NamedRings> shapes = degenerate_shapes(context(), 40, time_of_impact_seed);
     int hits = 0;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const MovingPair moving{
@@ -80,7 +80,7 @@ TEST_F(TimeOfImpactTest, OutlinesMeetOnTheWay) {
 }
 
 TEST_F(TimeOfImpactTest, LawsOfSymmetry) {
-    for_each_case(seed + 1000, 40, [&](Random& random) {
+    for_each_case(time_of_impact_seed + 1000, 40, [&](Random& random) {
         const MovingPair moving = any_moving_pair(random);
         SCOPED_TRACE(describe(moving.pair));
         const TimeOfImpactResult result = ask(moving);

@@ -17,11 +17,11 @@ using geometry::SubpixelGrid;
 using geometry::Vector;
 using support::Tile;
 
-constexpr Tile tiles[] = {{.width = 64, .height = 64},
-                          {.width = 1, .height = 1},
-                          {.width = 7, .height = 50},
-                          {.width = 97, .height = 3},
-                          {.width = 32, .height = 32, .grid = {.steps = 16.0}}};
+constexpr Tile fill_tiles[] = {{.width = 64, .height = 64},
+                               {.width = 1, .height = 1},
+                               {.width = 7, .height = 50},
+                               {.width = 97, .height = 3},
+                               {.width = 32, .height = 32, .grid = {.steps = 16.0}}};
 
 template <typename Visit>
 void for_each_edge(const support::Rings& rings, const Visit& visit) {
@@ -90,7 +90,7 @@ TEST(SubpixelGrid, SnapsToTheNearestStepAndHalvesUp) {
 }
 
 TEST(FillMesh, ParityIsTheScanlineOfTheSnappedPolygon) {
-    for (const Tile& tile : tiles) {
+    for (const Tile& tile : fill_tiles) {
         for (std::uint32_t seed = 1; seed <= 30; ++seed) {
             for (const auto& polygon :
                  support::degenerate_polygons(tile.width, tile.height, seed)) {
@@ -101,7 +101,7 @@ TEST(FillMesh, ParityIsTheScanlineOfTheSnappedPolygon) {
 }
 
 TEST(FillMesh, FarVerticesDisturbOnlySamplesOnTheirEdges) {
-    for (const Tile& tile : tiles) {
+    for (const Tile& tile : fill_tiles) {
         for (std::uint32_t seed = 1; seed <= 200; ++seed) {
             for (const auto& polygon : support::huge_polygons(tile.width, tile.height, seed)) {
                 expect_scanline_parity(tile, polygon);
@@ -111,7 +111,7 @@ TEST(FillMesh, FarVerticesDisturbOnlySamplesOnTheirEdges) {
 }
 
 TEST(FillMesh, StaysNearTheTileAndOnTheGrid) {
-    for (const Tile& tile : tiles) {
+    for (const Tile& tile : fill_tiles) {
         for (std::uint32_t seed = 1; seed <= 20; ++seed) {
             for (const auto& polygon :
                  support::degenerate_polygons(tile.width, tile.height, seed)) {
@@ -125,7 +125,7 @@ TEST(FillMesh, StaysNearTheTileAndOnTheGrid) {
 }
 
 TEST(FillMesh, AnEdgeAndItsReverseGiveTheSameTriangles) {
-    const Tile& tile = tiles[0];
+    const Tile& tile = fill_tiles[0];
     const FillMesh fill_mesh(tile.width, tile.height, tile.grid);
     for (std::uint32_t seed = 1; seed <= 100; ++seed) {
         for (const auto& polygon : support::huge_polygons(tile.width, tile.height, seed)) {

@@ -14,8 +14,8 @@ using geometry::Mesh;
 using geometry::Vector;
 using support::Tile;
 
-constexpr Tile tiles[] = {{.width = 64, .height = 48},
-                          {.width = 5, .height = 64, .grid = {.steps = 16.0}}};
+constexpr Tile offset_tiles[] = {{.width = 64, .height = 48},
+                                 {.width = 5, .height = 64, .grid = {.steps = 16.0}}};
 
 double bound(double offset, const Tile& tile) {
     return offset * geometry::offset_overreach + 3.0 * tile.grid.largest_move();
@@ -52,7 +52,7 @@ void expect_laws(const Tile& tile, const Vector& a, const Vector& b, double offs
 }
 
 TEST(OffsetMesh, CoversTheOffsetAndLittleMore) {
-    for (const Tile& tile : tiles) {
+    for (const Tile& tile : offset_tiles) {
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
             auto polygons = support::degenerate_polygons(tile.width, tile.height, seed);
             for (const auto& huge : support::huge_polygons(tile.width, tile.height, seed)) {
@@ -74,7 +74,7 @@ TEST(OffsetMesh, CoversTheOffsetAndLittleMore) {
 TEST(OffsetMesh, CoversSamplesAtExactlyTheOffset) {
     // For axis-parallel edges at pixel borders, samples lie exactly at the offset, and snapping to
     // halves moves the border by half a step in either direction.
-    const Tile& tile = tiles[0];
+    const Tile& tile = offset_tiles[0];
     for (const double nudge : {0.0, 1.0 / 512.0, -1.0 / 512.0, 1.0 / 1024.0}) {
         for (const double offset : {0.5, 1.5, 4.5}) {
             expect_laws(tile, {10.0, 10.0}, {30.0, 10.0}, offset + nudge);
@@ -86,7 +86,7 @@ TEST(OffsetMesh, CoversSamplesAtExactlyTheOffset) {
 }
 
 TEST(OffsetMesh, AcceptsEdgesOfAlmostNoLength) {
-    const Tile& tile = tiles[0];
+    const Tile& tile = offset_tiles[0];
     for (const double length : {0.0, 1e-300, 1e-160, 1e-12, 1e-3}) {
         expect_laws(tile, {20.25, 20.75}, {20.25 + length, 20.75}, 3.0);
         expect_laws(tile, {0.0, 0.0}, {-length, length}, 3.0);

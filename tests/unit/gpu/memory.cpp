@@ -16,12 +16,12 @@ using gpu::MemoryKind;
 
 class GpuMemory : public test_support::GpuTest {};
 
-constexpr gpu::MemoryWish visible{VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT, 0};
+constexpr gpu::MemoryWish visible_wish{VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT, 0};
 constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20U;
 
 DeviceMemory take(const gpu::Device& device, std::uint64_t bytes, std::uint64_t alignment = 16,
                   MemoryKind kind = MemoryKind::mapped_buffer) {
-    return device.memory().allocate({bytes, alignment, ~0U}, visible, kind, "a test");
+    return device.memory().allocate({bytes, alignment, ~0U}, visible_wish, kind, "a test");
 }
 
 TEST_F(GpuMemory, PiecesOfABlockDoNotOverlapWhateverIsGivenBack) {

@@ -12,12 +12,12 @@
 namespace nearfield::graph::testing {
 namespace {
 
-constexpr unsigned graph_count = 400;
+constexpr unsigned baked_graphs = 400;
 
 /// Calls `law` with random graphs and their baked versions.
 template <class Law>
 void for_random_graphs(Law&& law) {
-    for (unsigned seed = 0; seed < graph_count && !::testing::Test::HasFatalFailure(); ++seed) {
+    for (unsigned seed = 0; seed < baked_graphs && !::testing::Test::HasFatalFailure(); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const RandomGraph random(seed);
         const Expected<BakedGraph> baked = bake(random.graph());
@@ -146,7 +146,7 @@ TEST(GraphBake, NoTwoLiveImagesInOneSlotAndNoSlotTooMany) {
         ASSERT_EQ(baked.memory_slots, fewest) << print_text(graph, baked);
         shared += images - fewest;
     });
-    EXPECT_GT(shared, graph_count / 4) << "the graphs hardly share memory and test nothing";
+    EXPECT_GT(shared, baked_graphs / 4) << "the graphs hardly share memory and test nothing";
 }
 
 TEST(GraphBake, BarriersKeepEveryRuleOfTheSimulation) {

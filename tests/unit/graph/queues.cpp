@@ -13,13 +13,13 @@
 namespace nearfield::graph::testing {
 namespace {
 
-constexpr unsigned graph_count = 300;
+constexpr unsigned divided_graphs = 300;
 constexpr VkQueueFlags compute_only = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
 
 /// Calls `law` with random graphs that export, baked for a family that does not draw.
 template <class Law>
 void for_exporting_graphs(const Law& law) {
-    for (unsigned seed = 0; seed < graph_count && !::testing::Test::HasFatalFailure(); ++seed) {
+    for (unsigned seed = 0; seed < divided_graphs && !::testing::Test::HasFatalFailure(); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const RandomGraph random = RandomGraph::that_exports(seed);
         const Expected<BakedGraph> baked = bake(random.graph(), compute_only);
@@ -48,11 +48,11 @@ TEST(GraphQueues, ThatDoNotDrawGetOnlyBarriersThatTheyHave) {
             << breach;
         refused += breach.empty() ? 0U : 1U;
     });
-    EXPECT_GT(refused, graph_count / 2);
+    EXPECT_GT(refused, divided_graphs / 2);
 }
 
 TEST(GraphQueues, ThatDoNotDrawRefusePassesThatDo) {
-    for (unsigned seed = 0; seed < graph_count; ++seed) {
+    for (unsigned seed = 0; seed < divided_graphs; ++seed) {
         const RandomGraph random(seed);
         const BakedGraph baked = *bake(random.graph());
         for (const BakedPass& pass : baked.passes) {
@@ -90,7 +90,7 @@ TEST(GraphQueues, OfAnotherFamilyReadAfterASemaphoreWhatBothShare) {
         ASSERT_EQ(breach(), "") << print_text(graph, baked);
         exporting += exports(graph, baked) ? 1U : 0U;
     });
-    EXPECT_GT(exporting, graph_count / 2);
+    EXPECT_GT(exporting, divided_graphs / 2);
 }
 
 TEST(GraphQueues, OfAnotherFamilyFindTheLayoutThatTheLastBarrierMakes) {

@@ -38,46 +38,45 @@ double area(const CurvePath& path) {
     return found.empty() ? 0.0 : found.front();
 }
 
-constexpr double pi = std::numbers::pi;
-
 TEST(ToolsDxf, PolylinesWithBulges) {
     // A stadium: two half circles, of which a bulge of 1 is one.
     EXPECT_NEAR(
         area(read_drawing(drawing("0 LWPOLYLINE 90 4 70 1 43 0.5 10 0 20 0 10 4 20 0 42 1 10 4 20 "
                                   "2 10 0 20 2 42 1"))),
-        8.0 + pi, 1e-5);
+        8.0 + std::numbers::pi, 1e-5);
     // A quarter circle cut off; the bulge is negative clockwise.
-    const double quarter = std::tan(pi / 8.0);
+    const double quarter = std::tan(std::numbers::pi / 8.0);
     EXPECT_NEAR(area(read_drawing(drawing("0 LWPOLYLINE 70 1 10 0 20 0 10 1 20 0 42 " +
                                           std::to_string(-quarter) + " 10 0 20 1"))),
-                1.0 - pi / 4.0, 1e-5);
+                1.0 - std::numbers::pi / 4.0, 1e-5);
     EXPECT_NEAR(
         area(read_drawing(drawing("0 POLYLINE 66 1 70 1 10 0 20 0 30 0 0 VERTEX 10 0 20 0 42 1 0 "
                                   "VERTEX 10 2 20 0 42 1 0 SEQEND 8 0"))),
-        pi, 1e-5);
+        std::numbers::pi, 1e-5);
     // Seen from behind, x points the other way.
     const CurvePath behind = read_drawing(
         drawing("0 LWPOLYLINE 70 1 230 -1 10 0 20 0 10 4 20 0 42 1 10 4 20 2 10 0 20 2"));
-    EXPECT_NEAR(area(behind), -(8.0 + pi / 2.0), 1e-5);
+    EXPECT_NEAR(area(behind), -(8.0 + std::numbers::pi / 2.0), 1e-5);
     EXPECT_EQ(behind.contours()[0].segments[0].to, (Vector2{-4.0, 0.0}));
 }
 
 TEST(ToolsDxf, LinesAndArcsAreJoinedToLoops) {
     const std::string rounded = " 0 ARC 10 4 20 1 40 1 50 270 51 90" + line({4, 2}, {0, 2}) +
                                 line({4, 0}, {0, 0}) + " 0 ARC 10 0 20 1 40 1 50 90 51 -90";
-    EXPECT_NEAR(std::abs(area(read_drawing(drawing(rounded)))), 8.0 + pi, 1e-5);
+    EXPECT_NEAR(std::abs(area(read_drawing(drawing(rounded)))), 8.0 + std::numbers::pi, 1e-5);
     // A square of two open polylines, and a hole in it.
     const CurvePath holed = read_drawing(
         drawing("0 CIRCLE 10 1 20 1 40 0.5 0 LWPOLYLINE 10 0 20 0 10 2 20 0 10 2 20 2 0 POLYLINE "
                 "70 0 0 VERTEX 10 0 20 0 0 VERTEX 10 0 20 2 0 VERTEX 10 2 20 2 0 SEQEND"));
     const std::vector<double> found = areas(holed);
     ASSERT_EQ(found.size(), 2U);
-    EXPECT_NEAR(found[0], pi / 4.0, 1e-5);
+    EXPECT_NEAR(found[0], std::numbers::pi / 4.0, 1e-5);
     EXPECT_NEAR(std::abs(found[1]), 4.0, 1e-12);
-    EXPECT_NEAR(area(read_drawing(drawing("0 ARC 10 1 20 2 40 3 50 30 51 390"))), 9.0 * pi, 1e-4);
+    EXPECT_NEAR(area(read_drawing(drawing("0 ARC 10 1 20 2 40 3 50 30 51 390"))),
+                9.0 * std::numbers::pi, 1e-4);
     EXPECT_NEAR(
         area(read_drawing(drawing("0 ELLIPSE 10 1 20 2 11 0 21 3 40 0.5 41 0 42 6.283185307"))),
-        4.5 * pi, 1e-4);
+        4.5 * std::numbers::pi, 1e-4);
 }
 
 TEST(ToolsDxf, RandomLoopsInAnyOrder) {
@@ -95,7 +94,7 @@ TEST(ToolsDxf, RandomLoopsInAnyOrder) {
             const Vector2 centre{scale * number(-9, 9), scale * number(-9, 9)};
             std::vector<Vector2> at;
             for (int i = 0; i < count; ++i) {
-                const double angle = 2.0 * pi * i / count;
+                const double angle = 2.0 * std::numbers::pi * i / count;
                 const double radius = scale * number(1, 2);
                 at.push_back(
                     {centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
@@ -171,9 +170,9 @@ TEST(ToolsDxf, BlocksAreInserted) {
 TEST(ToolsDxf, UnitsAreTheHeaders) {
     const std::string inches = "0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 9 $INSUNITS 70 1 0 ENDSEC";
     const std::string circle = "0 CIRCLE 10 0 20 0 40 1";
-    EXPECT_NEAR(area(read_drawing(drawing(circle, inches), LengthUnit::mm)), pi * 25.4 * 25.4,
-                0.01);
-    EXPECT_NEAR(area(read_drawing(drawing(circle, inches))), pi, 1e-5);
+    EXPECT_NEAR(area(read_drawing(drawing(circle, inches), LengthUnit::mm)),
+                std::numbers::pi * 25.4 * 25.4, 0.01);
+    EXPECT_NEAR(area(read_drawing(drawing(circle, inches))), std::numbers::pi, 1e-5);
     EXPECT_NE(refusal(drawing(circle), LengthUnit::mm).find("states no unit"), std::string::npos);
 }
 
@@ -244,12 +243,13 @@ TEST(ToolsDxf, InsertsMayBeRowsAndColumnsOfABlockInAnyCase) {
 
 TEST(ToolsDxf, PlanesAreThoseOfTheAxesUpToRounding) {
     const std::string circle = "0 CIRCLE 10 1 20 0 40 1 210 1e-17 220 -1.2e-16 230 ";
-    EXPECT_NEAR(area(read_drawing(drawing(circle + "0.9999999999"))), pi, 1e-5);
+    EXPECT_NEAR(area(read_drawing(drawing(circle + "0.9999999999"))), std::numbers::pi, 1e-5);
     EXPECT_EQ(refusal(drawing(circle + "0.99")),
               "a.dxf:6:1: CIRCLE: does not lie in the plane of x and y");
     EXPECT_EQ(refusal(drawing("0 LINE 10 0 20 0 30 0 11 1 21 0 31 5")),
               "a.dxf:6:1: LINE: does not lie in the plane of x and y");
-    EXPECT_NEAR(area(read_drawing(drawing("0 CIRCLE 10 0 20 0 40 1") + "\x1A")), pi, 1e-5);
+    EXPECT_NEAR(area(read_drawing(drawing("0 CIRCLE 10 0 20 0 40 1") + "\x1A")), std::numbers::pi,
+                1e-5);
 }
 
 TEST(ToolsDxf, RefusalsSayWhere) {

@@ -15,8 +15,6 @@
 namespace nearfield::tools {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 double distance_to(const Vector2& p, const Vector2& a, const Vector2& b) {
     const Vector2 way{b.x - a.x, b.y - a.y};
     const double squared = way.x * way.x + way.y * way.y;
@@ -174,7 +172,7 @@ TEST(ToolsDxfSplines, CloseByThemselves) {
         Spline spline{.degree = degree, .knots = {}, .points = {}};
         const int different = 7;
         for (int i = 0; i < different + degree; ++i) {
-            const double angle = 2.0 * pi * (i % different) / different;
+            const double angle = 2.0 * std::numbers::pi * (i % different) / different;
             spline.points.push_back({10.0 + 3.0 * std::cos(angle), 2.0 * std::sin(angle)});
         }
         for (int i = 0; i < different + 2 * degree + 1; ++i) {
@@ -222,11 +220,13 @@ TEST(ToolsDxfEllipses, MayBeArcs) {
         const Vector2 centre{between(-5.0, 5.0), between(-5.0, 5.0)};
         const Vector2 axis{between(-4.0, 4.0), between(-4.0, 4.0)};
         const double ratio = between(0.1, 1.0);
-        const double first = between(0.0, 2.0 * pi);
-        const double sweep = seed % 5 == 0 ? pi : between(0.05, 2.0 * pi - 0.05);
+        const double first = between(0.0, 2.0 * std::numbers::pi);
+        const double sweep =
+            seed % 5 == 0 ? std::numbers::pi : between(0.05, 2.0 * std::numbers::pi - 0.05);
         const double way = seed % 2 == 0 ? 1.0 : -1.0;
         double last = first + sweep;
-        last -= seed % 3 == 0 && last > 2.0 * pi ? 2.0 * pi : 0.0;  // both are written
+        last -= seed % 3 == 0 && last > 2.0 * std::numbers::pi ? 2.0 * std::numbers::pi
+                                                               : 0.0;  // both are written
         std::vector<Vector2> truth;
         for (int i = 0; i <= 700; ++i) {
             const double angle = first + sweep * i / 700.0;

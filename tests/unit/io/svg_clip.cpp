@@ -8,10 +8,10 @@
 namespace nearfield::tools {
 namespace {
 
-const std::string svg = "<svg viewBox='10 20 100 50'>";
+const std::string clip_view = "<svg viewBox='10 20 100 50'>";
 const std::string part = "<path d='M0 0h4v3z'/>";
 
-SvgDrawing draw(const std::string& content, const std::string& root = svg) {
+SvgDrawing draw(const std::string& content, const std::string& root = clip_view) {
     SkippedParts skipped;
     return parse_svg(root + content + "</svg>", "a.svg", skipped, LengthUnit::mm);
 }
@@ -23,11 +23,11 @@ std::string clipped(const std::string& content, const std::string& group = "",
            group + ">" + part + "</g>";
 }
 
-void expect_drawn(const std::string& content, const std::string& root = svg) {
+void expect_drawn(const std::string& content, const std::string& root = clip_view) {
     EXPECT_EQ(draw(content, root).parts.size(), 1U) << content;
 }
 
-void expect_refused(const std::string& content, const std::string& root = svg) {
+void expect_refused(const std::string& content, const std::string& root = clip_view) {
     const std::string error = input_error([&] { return draw(content, root); });
     EXPECT_NE(error.find("g: clip-path is not read, unless it keeps the whole canvas"),
               std::string::npos)
@@ -85,7 +85,7 @@ TEST(ToolsSvgClip, WhatCutsTheCanvasIsRefused) {
 TEST(ToolsSvgClip, ItemsHaveSeveralPlaces) {
     SkippedParts skipped;
     const auto layout = [&](const std::string& content) {
-        return parse_svg_layout(svg + content + "</svg>", "a.svg", skipped, LengthUnit::user);
+        return parse_svg_layout(clip_view + content + "</svg>", "a.svg", skipped, LengthUnit::user);
     };
     EXPECT_EQ(layout(clipped(whole) + part).items.size(), 2U);
     // Inside what is used, the canvas is elsewhere each time.

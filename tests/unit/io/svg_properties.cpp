@@ -10,7 +10,7 @@
 namespace nearfield::tools {
 namespace {
 
-SvgDrawing draw(const std::string& file, LengthUnit unit = LengthUnit::user) {
+SvgDrawing draw_file(const std::string& file, LengthUnit unit = LengthUnit::user) {
     SkippedParts skipped;
     return parse_svg(file, "a.svg", skipped, unit);
 }
@@ -24,7 +24,8 @@ std::string path(const std::string& attributes) {
 /// The fill rules of what a drawing draws, a letter each: n(onzero) or e(venodd).
 std::string rules(const std::string& content) {
     std::string letters;
-    for (const FilledPart& part : draw("<svg>" + content + path("id='end'") + "</svg>").parts) {
+    for (const FilledPart& part :
+         draw_file("<svg>" + content + path("id='end'") + "</svg>").parts) {
         letters += part.rule == FillRule::nonzero ? 'n' : 'e';
     }
     return letters;
@@ -38,13 +39,13 @@ Vector2 corner(const SvgDrawing& drawing) {
 
 void expect_corner(const std::string& file, double x, double y,
                    LengthUnit unit = LengthUnit::user) {
-    const Vector2 actual = corner(draw(file, unit));
+    const Vector2 actual = corner(draw_file(file, unit));
     EXPECT_NEAR(actual.x, x, 1e-12 * (1.0 + std::abs(x))) << file;
     EXPECT_NEAR(actual.y, y, 1e-12 * (1.0 + std::abs(y))) << file;
 }
 
 std::string error(const std::string& content) {
-    return input_error([&] { return draw("<svg>\n" + content + "\n</svg>"); });
+    return input_error([&] { return draw_file("<svg>\n" + content + "\n</svg>"); });
 }
 
 TEST(ToolsSvgProperties, FillRulesAreInheritedAndStylesComeFirst) {
@@ -169,16 +170,17 @@ TEST(ToolsSvgProperties, SymbolsHaveAPlaceOfTheirOwn) {
 /// CSS moves it about the middle of a box whose size a window decides.
 TEST(ToolsSvgProperties, ATransformOfTheOutermostElementIsRefused) {
     for (const char* const attribute : {"transform='scale(2)'", "style='transform:scale(2)'"}) {
-        EXPECT_EQ(input_error([&] {
-                      return draw(std::string("<svg ") + attribute + ">" + path("") + "</svg>");
-                  }),
-                  "a.svg:1:2: svg: a transform of the outermost element is not read");
+        EXPECT_EQ(
+            input_error([&] {
+                return draw_file(std::string("<svg ") + attribute + ">" + path("") + "</svg>");
+            }),
+            "a.svg:1:2: svg: a transform of the outermost element is not read");
     }
 }
 
 TEST(ToolsSvgProperties, LengthsOfStylesNeedAUnit) {
     const auto expect_width = [](const std::string& attributes, double width) {
-        const SvgDrawing drawing = draw("<svg><rect height='3' " + attributes + "/></svg>");
+        const SvgDrawing drawing = draw_file("<svg><rect height='3' " + attributes + "/></svg>");
         EXPECT_EQ(corner(drawing).x, width) << attributes;
     };
     expect_width("width='5' style='width:7'", 5.0);
@@ -186,8 +188,8 @@ TEST(ToolsSvgProperties, LengthsOfStylesNeedAUnit) {
     expect_width("width='5' style='width:6px;width:7'", 6.0);
     expect_width("width='5' style='width:+7.5e0!important'", 5.0);
     expect_width("width='5' x='3' style='x:0;rx:0.0'", 5.0);
-    const SvgDrawing styled =
-        draw("<svg><style>.a{width:9} rect{width:8px}</style><rect class='a' height='3'/></svg>");
+    const SvgDrawing styled = draw_file(
+        "<svg><style>.a{width:9} rect{width:8px}</style><rect class='a' height='3'/></svg>");
     EXPECT_EQ(corner(styled).x, 8.0);
 }
 
@@ -220,7 +222,7 @@ TEST(ToolsSvgProperties, UnitsAndViewBoxByOption) {
     expect_corner("<svg viewBox='0 0 8 10'><rect width='50%' height='3'/></svg>", 4.0, 0.0);
     expect_corner("<svg><rect width='1in' height='3'/></svg>", 96.0, 0.0);
     EXPECT_NE(input_error([&] {
-                  return draw("<svg viewBox='0 0 0 9'" + end);
+                  return draw_file("<svg viewBox='0 0 0 9'" + end);
               }).find("have to be above 0"),
               std::string::npos);
 }

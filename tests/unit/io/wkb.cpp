@@ -50,7 +50,7 @@ private:
     std::string text_;
 };
 
-const std::vector<Ring> triangle{{{0, 0}, {4, -0.5}, {1e-3, 3}}};
+const std::vector<Ring> wkb_triangle{{{0, 0}, {4, -0.5}, {1e-3, 3}}};
 
 Bytes triangle_bytes(bool little_endian = true) {
     return Bytes(little_endian).header(3).count(1).count(3).numbers({0, 0, 4, -0.5, 1e-3, 3});
@@ -63,7 +63,7 @@ std::vector<Ring> rings_of(const Bytes& bytes) {
     return rings;
 }
 
-std::string error_of(const std::string& bytes) {
+std::string error_of_bytes(const std::string& bytes) {
     SkippedParts skipped;
     return input_error([&] { return parse_wkb(bytes, "a.wkb", skipped); });
 }
@@ -75,14 +75,14 @@ std::string hex_error_of(const std::string& text) {
 
 TEST(ToolsWkb, ReadsBothByteOrdersAndEveryKindOfDimension) {
     for (const bool little_endian : {true, false}) {
-        EXPECT_EQ(rings_of(triangle_bytes(little_endian)), triangle);
+        EXPECT_EQ(rings_of(triangle_bytes(little_endian)), wkb_triangle);
         for (const std::uint32_t type : {1003U, 2003U, 0x80000003U, 0x40000003U}) {
             EXPECT_EQ(rings_of(Bytes(little_endian)
                                    .header(type)
                                    .count(1)
                                    .count(3)
                                    .numbers({0, 0, 9, 4, -0.5, 9, 1e-3, 3, 9})),
-                      triangle)
+                      wkb_triangle)
                 << type;
         }
         for (const std::uint32_t type : {3003U, 0xC0000003U}) {
@@ -91,7 +91,7 @@ TEST(ToolsWkb, ReadsBothByteOrdersAndEveryKindOfDimension) {
                                    .count(1)
                                    .count(3)
                                    .numbers({0, 0, 9, 8, 4, -0.5, 9, 8, 1e-3, 3, 9, 8})),
-                      triangle)
+                      wkb_triangle)
                 << type;
         }
         EXPECT_EQ(rings_of(Bytes(little_endian)
@@ -100,7 +100,7 @@ TEST(ToolsWkb, ReadsBothByteOrdersAndEveryKindOfDimension) {
                                .count(1)
                                .count(3)
                                .numbers({0, 0, 4, -0.5, 1e-3, 3})),
-                  triangle);
+                  wkb_triangle);
     }
 }
 
@@ -117,7 +117,8 @@ TEST(ToolsWkb, CollectionsMayMixByteOrdersAndWhatHoldsNoAreaIsCounted) {
     all.append(Bytes(true).header(5).count(1)).append(Bytes(false).header(2).count(0));
     all.append(Bytes(true).header(7).count(1)).append(triangle_bytes());
     SkippedParts skipped;
-    EXPECT_EQ(parse_wkb(all.text(), "f", skipped), (std::vector<Ring>{triangle[0], triangle[0]}));
+    EXPECT_EQ(parse_wkb(all.text(), "f", skipped),
+              (std::vector<Ring>{wkb_triangle[0], wkb_triangle[0]}));
     EXPECT_EQ(skipped.text(),
               "empty part (1), Point (1), LineString (1), MultiPoint (1), MultiLineString (1)");
 }
@@ -125,51 +126,52 @@ TEST(ToolsWkb, CollectionsMayMixByteOrdersAndWhatHoldsNoAreaIsCounted) {
 TEST(ToolsWkb, GeometriesThatFollowEachOtherAreTheParts) {
     SkippedParts skipped;
     const std::string both = triangle_bytes(true).text() + triangle_bytes(false).text();
-    EXPECT_EQ(parse_wkb(both, "f", skipped), (std::vector<Ring>{triangle[0], triangle[0]}));
+    EXPECT_EQ(parse_wkb(both, "f", skipped), (std::vector<Ring>{wkb_triangle[0], wkb_triangle[0]}));
 }
 
 TEST(ToolsWkb, ErrorsNameFileAndByte) {
     const std::string good = triangle_bytes().text();
     for (std::size_t size = 0; size < good.size(); ++size) {
-        const std::string error = error_of(good.substr(0, size));
+        const std::string error = error_of_bytes(good.substr(0, size));
         EXPECT_EQ(error.rfind("a.wkb: byte ", 0), 0U) << size << ": " << error;
     }
-    EXPECT_EQ(error_of(good + "xy"), "a.wkb: byte 61: 2 bytes after the end of the geometry");
-    EXPECT_EQ(error_of("\2" + good.substr(1)), "a.wkb: byte 0: a byte order is 0 or 1, not 2");
-    EXPECT_EQ(error_of(good.substr(0, 40)),
+    EXPECT_EQ(error_of_bytes(good + "xy"), "a.wkb: byte 61: 2 bytes after the end of the geometry");
+    EXPECT_EQ(error_of_bytes("\2" + good.substr(1)),
+              "a.wkb: byte 0: a byte order is 0 or 1, not 2");
+    EXPECT_EQ(error_of_bytes(good.substr(0, 40)),
               "a.wkb: byte 9: announces 3 positions, more than the rest of the file has room for");
-    EXPECT_EQ(error_of(good.substr(0, 3)),
+    EXPECT_EQ(error_of_bytes(good.substr(0, 3)),
               "a.wkb: byte 0: the file ends within the byte order and type of a geometry");
-    EXPECT_EQ(error_of(Bytes().header(3).count(UINT32_MAX).text()),
+    EXPECT_EQ(error_of_bytes(Bytes().header(3).count(UINT32_MAX).text()),
               "a.wkb: byte 5: announces 4294967295 rings, more than the rest of the file has room "
               "for");
-    EXPECT_EQ(error_of(Bytes().header(10).count(0).text()),
+    EXPECT_EQ(error_of_bytes(Bytes().header(10).count(0).text()),
               "a.wkb: byte 1: CurvePolygon is not read, only Polygon, MultiPolygon and "
               "GeometryCollection");
-    EXPECT_EQ(error_of(Bytes().header(4003).count(0).text()),
+    EXPECT_EQ(error_of_bytes(Bytes().header(4003).count(0).text()),
               "a.wkb: byte 1: there is no type of geometry 4003");
-    EXPECT_EQ(error_of(Bytes().header(99).count(0).text()),
+    EXPECT_EQ(error_of_bytes(Bytes().header(99).count(0).text()),
               "a.wkb: byte 1: there is no type of geometry 99");
-    EXPECT_EQ(error_of(Bytes().header(6).count(1).header(1).numbers({0, 0}).text()),
+    EXPECT_EQ(error_of_bytes(Bytes().header(6).count(1).header(1).numbers({0, 0}).text()),
               "a.wkb: byte 10: a MultiPolygon holds Polygons, not a Point");
-    EXPECT_EQ(error_of(Bytes().header(4).count(1).header(2).count(0).text()),
+    EXPECT_EQ(error_of_bytes(Bytes().header(4).count(1).header(2).count(0).text()),
               "a.wkb: byte 10: a MultiPoint holds a LineString");
     const double infinite = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(
-        error_of(Bytes().header(3).count(1).count(3).numbers({0, 0, 4, infinite, 1e-3, 3}).text()),
-        "a.wkb: byte 37: not a finite number");
-    EXPECT_EQ(error_of(Bytes().header(1).numbers({1, 2}).text()),
+    EXPECT_EQ(error_of_bytes(
+                  Bytes().header(3).count(1).count(3).numbers({0, 0, 4, infinite, 1e-3, 3}).text()),
+              "a.wkb: byte 37: not a finite number");
+    EXPECT_EQ(error_of_bytes(Bytes().header(1).numbers({1, 2}).text()),
               "a.wkb: byte 0: holds no polygon, only Point (1)");
-    EXPECT_EQ(error_of(Bytes().header(3).count(1).count(0).text()),
+    EXPECT_EQ(error_of_bytes(Bytes().header(3).count(1).count(0).text()),
               "a.wkb: byte 0: holds no polygon, only empty part (1)");
-    EXPECT_EQ(
-        error_of(Bytes().header(3).count(2).count(0).count(3).numbers({0, 0, 4, 0, 0, 3}).text()),
-        "a.wkb: byte 13: an inner ring whose outer ring is empty");
+    EXPECT_EQ(error_of_bytes(
+                  Bytes().header(3).count(2).count(0).count(3).numbers({0, 0, 4, 0, 0, 3}).text()),
+              "a.wkb: byte 13: an inner ring whose outer ring is empty");
     std::string nested;
     for (int i = 0; i < 70; ++i) {
         nested += Bytes().header(7).count(1).text();
     }
-    EXPECT_EQ(error_of(nested + good), "a.wkb: byte 576: collections nested too deep");
+    EXPECT_EQ(error_of_bytes(nested + good), "a.wkb: byte 576: collections nested too deep");
 }
 
 TEST(ToolsWkb, ReadsHexadecimalDigits) {
@@ -203,7 +205,7 @@ TEST(ToolsOutline, WkbIsKnownByExtensionAndContent) {
     for (const bool little_endian : {true, false}) {
         const std::string binary = triangle_bytes(little_endian).text();
         for (const char* const name : {"a.wkb", "A.WKB", "a.bin", "a"}) {
-            EXPECT_EQ(read_outline(folder.write(name, binary)).rings, triangle) << name;
+            EXPECT_EQ(read_outline(folder.write(name, binary)).rings, wkb_triangle) << name;
         }
     }
     for (const char* const name : {"a.wkb", "a.wkt", "a.txt", "a"}) {

@@ -11,7 +11,7 @@
 namespace nearfield::tools {
 namespace {
 
-std::string error_of(const std::string& text) {
+std::string error_of_wkt(const std::string& text) {
     SkippedParts skipped;
     return input_error([&] { return parse_wkt(text, "a.wkt", skipped); });
 }
@@ -75,62 +75,63 @@ TEST(ToolsWkt, PartsThatHoldNoAreaAreSkippedAndCounted) {
                    "MULTILINESTRING((0 0,1 1),(2 2,3 3)))"),
         "POINT (3), LINESTRING (1), MULTIPOINT (2), MULTILINESTRING (1)");
     // A dimension ends with its geometry.
-    EXPECT_EQ(error_of("GEOMETRYCOLLECTION(POINT Z(1 2 3)," + polygon + ",POINT Z(1 2))"),
+    EXPECT_EQ(error_of_wkt("GEOMETRYCOLLECTION(POINT Z(1 2 3)," + polygon + ",POINT Z(1 2))"),
               "a.wkt:1:66: a position needs 3 numbers here, not 2");
 }
 
 TEST(ToolsWkt, WithoutAPolygonTheTextIsRefused) {
-    EXPECT_EQ(error_of("POINT(1 2)"), "a.wkt:1:1: holds no polygon, only POINT (1)");
-    EXPECT_EQ(error_of("\nPOLYGON EMPTY"), "a.wkt:2:1: holds no polygon, only empty part (1)");
-    EXPECT_EQ(error_of("POLYGON(EMPTY)"), "a.wkt:1:1: holds no polygon, only empty part (1)");
-    EXPECT_EQ(error_of("GEOMETRYCOLLECTION(LINESTRING(0 0,1 1),MULTIPOLYGON EMPTY)"),
+    EXPECT_EQ(error_of_wkt("POINT(1 2)"), "a.wkt:1:1: holds no polygon, only POINT (1)");
+    EXPECT_EQ(error_of_wkt("\nPOLYGON EMPTY"), "a.wkt:2:1: holds no polygon, only empty part (1)");
+    EXPECT_EQ(error_of_wkt("POLYGON(EMPTY)"), "a.wkt:1:1: holds no polygon, only empty part (1)");
+    EXPECT_EQ(error_of_wkt("GEOMETRYCOLLECTION(LINESTRING(0 0,1 1),MULTIPOLYGON EMPTY)"),
               "a.wkt:1:1: holds no polygon, only LINESTRING (1), empty part (1)");
-    EXPECT_EQ(error_of("POLYGON(EMPTY,(0 0,4 0,0 3))"),
+    EXPECT_EQ(error_of_wkt("POLYGON(EMPTY,(0 0,4 0,0 3))"),
               "a.wkt:1:15: an inner ring whose outer ring is EMPTY");
     std::string nested = "POLYGON((0 0,4 0,0 3))";
     for (int i = 0; i < 70; ++i) {
         nested = "GEOMETRYCOLLECTION(" + nested + ")";
     }
-    EXPECT_EQ(error_of(nested), "a.wkt:1:1217: collections nested too deep");
+    EXPECT_EQ(error_of_wkt(nested), "a.wkt:1:1217: collections nested too deep");
 }
 
 TEST(ToolsWkt, GeometriesThatFollowEachOtherAreTheParts) {
     EXPECT_EQ(rings_of("POLYGON((0 0,4 0,0 3))\nSRID=3;POLYGON Z((5 5 1,6 5 1,6 6 1));\n"),
               rings_of("MULTIPOLYGON(((0 0,4 0,0 3)),((5 5,6 5,6 6)))"));
     EXPECT_EQ(skipped_of("POINT(1 2);\nPOLYGON((0 0,4 0,0 3))"), "POINT (1)");
-    EXPECT_EQ(error_of("POLYGON EMPTY\nPOINT(1 2)"),
+    EXPECT_EQ(error_of_wkt("POLYGON EMPTY\nPOINT(1 2)"),
               "a.wkt:1:1: holds no polygon, only empty part (1), POINT (1)");
-    EXPECT_EQ(error_of("POLYGON((0 0,4 0,0 3))\nPOLIGON((0 0,4 0,0 3))"),
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,4 0,0 3))\nPOLIGON((0 0,4 0,0 3))"),
               "a.wkt:2:1: \"POLIGON\" is none of POLYGON, MULTIPOLYGON, GEOMETRYCOLLECTION");
 }
 
 TEST(ToolsWkt, ErrorsNameFileLineAndColumn) {
-    EXPECT_EQ(error_of("CURVEPOLYGON((0 0,1 1))"),
+    EXPECT_EQ(error_of_wkt("CURVEPOLYGON((0 0,1 1))"),
               "a.wkt:1:1: \"CURVEPOLYGON\" is none of POLYGON, MULTIPOLYGON, GEOMETRYCOLLECTION");
-    EXPECT_EQ(error_of("((0 0))"),
+    EXPECT_EQ(error_of_wkt("((0 0))"),
               "a.wkt:1:1: expected POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION");
-    EXPECT_EQ(error_of("POLYGON((0 0,1 1,0 1));;"),
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,1 1,0 1));;"),
               "a.wkt:1:24: text after the end of the geometry");
-    EXPECT_EQ(error_of("GEOMETRYCOLLECTION(POINT(1 2 x))"), "a.wkt:1:30: expected a number");
-    EXPECT_EQ(error_of("POLYGON((0 0,\n1 x,0 1))"), "a.wkt:2:3: expected a number");
-    EXPECT_EQ(error_of("POLYGON((0 0,\n1 1e,0 1))"), "a.wkt:2:3: expected a number");
-    EXPECT_EQ(error_of("POLYGON((0 0,1,0 1))"),
+    EXPECT_EQ(error_of_wkt("GEOMETRYCOLLECTION(POINT(1 2 x))"), "a.wkt:1:30: expected a number");
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,\n1 x,0 1))"), "a.wkt:2:3: expected a number");
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,\n1 1e,0 1))"), "a.wkt:2:3: expected a number");
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,1,0 1))"),
               "a.wkt:1:14: a position needs 2 numbers here, not 1");
-    EXPECT_EQ(error_of("POLYGON Z((0 0 1,1 2,0 1 1))"),
+    EXPECT_EQ(error_of_wkt("POLYGON Z((0 0 1,1 2,0 1 1))"),
               "a.wkt:1:18: a position needs 3 numbers here, not 2");
-    EXPECT_EQ(error_of("POLYGON M((0 0 1 2))"),
+    EXPECT_EQ(error_of_wkt("POLYGON M((0 0 1 2))"),
               "a.wkt:1:18: a position has at most 3 numbers here");
-    EXPECT_EQ(error_of("POLYGON((0 0,1 nan,0 1))"), "a.wkt:1:16: not a finite number");
-    EXPECT_EQ(error_of("POLYGON((0 0,1 -inf,0 1))"), "a.wkt:1:16: not a finite number");
-    EXPECT_EQ(error_of("POLYGON((0 0,1 1e999,0 1))"),
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,1 nan,0 1))"), "a.wkt:1:16: not a finite number");
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,1 -inf,0 1))"), "a.wkt:1:16: not a finite number");
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,1 1e999,0 1))"),
               "a.wkt:1:16: a number too large or too small for double precision");
-    EXPECT_EQ(error_of("POLYGON((0 0,1 1,0 1)"), "a.wkt:1:22: the text ends where ')' is expected");
-    EXPECT_EQ(error_of("POLYGON((0 0,1 1,"), "a.wkt:1:18: the text ends too early");
-    EXPECT_EQ(error_of("POLYGON(0 0,1 1,0 1)"), "a.wkt:1:9: expected '('");
-    EXPECT_EQ(error_of("POLYGON((0 0,1 1,0 1)))"),
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,1 1,0 1)"),
+              "a.wkt:1:22: the text ends where ')' is expected");
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,1 1,"), "a.wkt:1:18: the text ends too early");
+    EXPECT_EQ(error_of_wkt("POLYGON(0 0,1 1,0 1)"), "a.wkt:1:9: expected '('");
+    EXPECT_EQ(error_of_wkt("POLYGON((0 0,1 1,0 1)))"),
               "a.wkt:1:23: text after the end of the geometry");
-    EXPECT_EQ(error_of("POLYGON Q((0 0,1 1,0 1))"), "a.wkt:1:9: \"Q\" is none of Z, M, ZM");
-    EXPECT_EQ(error_of("SRID 4;POLYGON((0 0,1 1,0 1))"),
+    EXPECT_EQ(error_of_wkt("POLYGON Q((0 0,1 1,0 1))"), "a.wkt:1:9: \"Q\" is none of Z, M, ZM");
+    EXPECT_EQ(error_of_wkt("SRID 4;POLYGON((0 0,1 1,0 1))"),
               "a.wkt:1:1: expected SRID=...; before the geometry");
 }
 

@@ -20,7 +20,7 @@ std::size_t contours_of(const std::string& text) {
     return parse_svg(text, "a.svg", skipped).path.contours().size();
 }
 
-std::string svg(const std::string& content) {
+std::string with_entities(const std::string& content) {
     return "<svg xmlns='http://www.w3.org/2000/svg'>" + content + "</svg>";
 }
 
@@ -68,14 +68,18 @@ TEST(ToolsXmlEntities, MatterToDrawings) {
     const std::string rect = "<rect width='1' height='1'/>";
     const std::string type = "<!DOCTYPE svg [<!ENTITY hidden \"display:none\"><!ENTITY r \"" +
                              rect + "\"><!ENTITY s \".a{display:none}\">]>";
-    EXPECT_EQ(contours_of(type + svg(rect + "<g style='&hidden;'>" + rect + "</g>&r;")), 2U);
+    EXPECT_EQ(contours_of(type + with_entities(rect + "<g style='&hidden;'>" + rect + "</g>&r;")),
+              2U);
+    EXPECT_EQ(contours_of(type + with_entities("<style>&s;</style><g class='b&#10;a'>" + rect +
+                                               "</g>" + rect)),
+              1U);
+    EXPECT_EQ(contours_of(with_entities("<g style='display:&#110;one'>" + rect + "</g>" + rect)),
+              1U);
+    EXPECT_EQ(contours_of(with_entities("<path d='M0 0&#x20;h10&#10;v10h-10z'/>")), 1U);
     EXPECT_EQ(
-        contours_of(type + svg("<style>&s;</style><g class='b&#10;a'>" + rect + "</g>" + rect)),
-        1U);
-    EXPECT_EQ(contours_of(svg("<g style='display:&#110;one'>" + rect + "</g>" + rect)), 1U);
-    EXPECT_EQ(contours_of(svg("<path d='M0 0&#x20;h10&#10;v10h-10z'/>")), 1U);
-    EXPECT_EQ(contours_of(svg("<rect id='a&#x62;' width='1' height='1'/><use href='#ab'/>")), 2U);
-    const std::string broken = type + "\n" + svg("&r;<rect width='x'/>");
+        contours_of(with_entities("<rect id='a&#x62;' width='1' height='1'/><use href='#ab'/>")),
+        2U);
+    const std::string broken = type + "\n" + with_entities("&r;<rect width='x'/>");
     SkippedParts skipped;
     EXPECT_EQ(input_error([&] { return parse_svg(broken, "a.svg", skipped); }),
               "a.svg:2:57: expected a number");
@@ -91,8 +95,9 @@ TEST(ToolsSvgNamespaces, DecideWhatIsDrawn) {
               2U);
     EXPECT_EQ(contours_of("<n:svg xmlns:n='" + space + "'><n:rect width='1' height='1'/></n:svg>"),
               1U);
-    EXPECT_EQ(contours_of(svg(rect + "<g xmlns='http://other.example/'>" + rect + "</g>")), 1U);
-    EXPECT_EQ(contours_of(svg(rect + "<x:y xmlns:x='z'>" + rect + "</x:y>")), 1U);
+    EXPECT_EQ(
+        contours_of(with_entities(rect + "<g xmlns='http://other.example/'>" + rect + "</g>")), 1U);
+    EXPECT_EQ(contours_of(with_entities(rect + "<x:y xmlns:x='z'>" + rect + "</x:y>")), 1U);
     SkippedParts skipped;
     EXPECT_EQ(input_error([&] {
                   return parse_svg("<svg xmlns='http://other.example/'/>", "a.svg", skipped);
@@ -104,11 +109,12 @@ TEST(ToolsSvgLanguages, OtherThanEnglishAreNotDrawn) {
     const auto rect = [](const std::string& attribute) {
         return "<rect width='1' height='1' " + attribute + "/>";
     };
-    EXPECT_EQ(contours_of(svg(rect("systemLanguage='xx'") + rect(""))), 1U);
-    EXPECT_EQ(contours_of(svg(rect("systemLanguage='de, en-GB'") + rect("requiredExtensions='x'"))),
+    EXPECT_EQ(contours_of(with_entities(rect("systemLanguage='xx'") + rect(""))), 1U);
+    EXPECT_EQ(contours_of(with_entities(rect("systemLanguage='de, en-GB'") +
+                                        rect("requiredExtensions='x'"))),
               1U);
-    EXPECT_EQ(contours_of(svg("<switch>" + rect("systemLanguage='enx'") + rect("") + rect("") +
-                              "</switch>")),
+    EXPECT_EQ(contours_of(with_entities("<switch>" + rect("systemLanguage='enx'") + rect("") +
+                                        rect("") + "</switch>")),
               1U);
 }
 

@@ -16,13 +16,13 @@ namespace {
 
 using namespace exact;
 
-struct Counts {
+struct DifferenceCounts {
     int intersect = 0;
     int used_up = 0;
 };
 
-void check(const Shape& shape, const Point& shift, const Frame& frame,
-           SeparatingTranslationFinder& finder, Counts& counts) {
+void check_difference(const Shape& shape, const Point& shift, const Frame& frame,
+                      SeparatingTranslationFinder& finder, DifferenceCounts& counts) {
     const geometry::Polygon polygon = samples::polygon(scaled(shape, frame.scale));
     const geometry::Vector by = frame.scale * (Eigen::Rotation2Dd(frame.angle) *
                                                geometry::Vector(static_cast<double>(shift.x),
@@ -73,9 +73,9 @@ TEST(SelfDifferences, TheOracleKnowsSquares) {
 
 TEST(SelfDifferences, OfShapesThatOnceWentWrong) {
     SeparatingTranslationFinder finder;
-    Counts counts;
+    DifferenceCounts counts;
     for (const Shape& shape : aligned_shapes()) {
-        check(shape, {}, {}, finder, counts);
+        check_difference(shape, {}, {}, finder, counts);
     }
     EXPECT_EQ(counts.intersect, static_cast<int>(aligned_shapes().size()));
     EXPECT_EQ(counts.used_up, 0);
@@ -85,7 +85,7 @@ TEST(SelfDifferences, OfShiftsByTheirOwnCoordinates) {
     samples::Random random(705);
     const std::vector<Shape> aligned = aligned_shapes();
     SeparatingTranslationFinder finder;
-    Counts counts;
+    DifferenceCounts counts;
     const std::uint32_t pairs = number_of_pairs(1'000);
     for (std::uint32_t i = 0; i < pairs; ++i) {
         const Shape shape = i % 2 == 0
@@ -106,7 +106,7 @@ TEST(SelfDifferences, OfShiftsByTheirOwnCoordinates) {
         SCOPED_TRACE("pair " + std::to_string(i) + ", shifted by " + std::to_string(shift.x) + " " +
                      std::to_string(shift.y) + ", scale " + std::to_string(frame.scale) +
                      ", angle " + std::to_string(frame.angle));
-        check(shape, shift, frame, finder, counts);
+        check_difference(shape, shift, frame, finder, counts);
     }
     RecordProperty("intersect", counts.intersect);
     RecordProperty("used_up", counts.used_up);

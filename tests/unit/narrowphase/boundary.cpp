@@ -24,7 +24,7 @@ double brute_force_squared_distance(const TransformedPolygon& placed, const Vect
 }
 
 template <class Check>
-void for_each_shape(const Check& check) {
+void for_each_placed_shape(const Check& check) {
     samples::Random random(31);
     for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
         for (const Pose& pose : {Pose{}, Pose{{1e4, -3.0}, 0.7}}) {
@@ -41,7 +41,7 @@ Vector any_point(const TransformedPolygon& placed, samples::Random& random) {
 }
 
 TEST(ExactBoundary, NearestIsThatOfBruteForce) {
-    for_each_shape([](const TransformedPolygon& placed, samples::Random& random) {
+    for_each_placed_shape([](const TransformedPolygon& placed, samples::Random& random) {
         Boundary boundary;
         boundary.set(placed);
         for (int i = 0; i < 200; ++i) {
@@ -58,7 +58,7 @@ TEST(ExactBoundary, NearestIsThatOfBruteForce) {
 }
 
 TEST(ExactBoundary, ContainsIsThatOfTheWholePolygon) {
-    for_each_shape([](const TransformedPolygon& placed, samples::Random& random) {
+    for_each_placed_shape([](const TransformedPolygon& placed, samples::Random& random) {
         Boundary boundary;
         boundary.set(placed);
         for (int i = 0; i < 200; ++i) {
@@ -72,7 +72,7 @@ TEST(ExactBoundary, ContainsIsThatOfTheWholePolygon) {
 
 TEST(ExactBoundary, NormalsLeadOut) {
     std::size_t checked = 0;
-    for_each_shape([&](const TransformedPolygon& placed, samples::Random& random) {
+    for_each_placed_shape([&](const TransformedPolygon& placed, samples::Random& random) {
         Boundary boundary;
         boundary.set(placed);
         std::vector<double> parameters;

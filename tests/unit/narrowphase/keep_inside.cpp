@@ -17,13 +17,13 @@ using samples::Points;
 
 /// Whether a point is inside by the even-odd rule, edge by edge, and how far it is from the
 /// boundary.
-struct Truth {
+struct PointTruth {
     bool inside = false;
     double squared = std::numeric_limits<double>::infinity();
 };
 
-Truth truth_of(const simd::TransformedEdges& edges, const Vector& point) {
-    Truth truth;
+PointTruth plain_truth_of(const simd::TransformedEdges& edges, const Vector& point) {
+    PointTruth truth;
     for (std::uint32_t i = 0; i < edges.count; ++i) {
         const Vector start = edges.start(i);
         const Vector end = edges.end(i);
@@ -44,7 +44,7 @@ Points points_off(const simd::TransformedEdges& edges, samples::Random& random) 
     Vector at(random.between(-1.2, 1.2), random.between(-1.2, 1.2));
     for (int i = 0; i < 300; ++i) {
         const Vector point = edges.placed.to_world(at);
-        if (truth_of(edges, point).squared > 1e-16) {
+        if (plain_truth_of(edges, point).squared > 1e-16) {
             points.push(point);
         }
         if (random.below(5) > 0) {
@@ -77,7 +77,7 @@ TEST(KeepInside, KeepsThePointsInsideInOrderOnEveryInstructionSet) {
                 std::vector<Vector> expected;
                 for (std::uint32_t k = 0; k < points.count; ++k) {
                     const Vector point(points.x[k], points.y[k]);
-                    if (truth_of(instances[index], point).inside) {
+                    if (plain_truth_of(instances[index], point).inside) {
                         expected.push_back(point);
                     }
                 }

@@ -20,7 +20,7 @@ using samples::Points;
 
 /// Calls `check(edges, random)` for all kinds of shapes, small, large and crowded.
 template <class Check>
-void for_each_shape(const Check& check) {
+void for_each_crowded_shape(const Check& check) {
     samples::Random random(317);
     std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
     for (samples::NamedRings& shape : samples::awkward_shapes(random)) {
@@ -83,7 +83,7 @@ TEST(LocatedPoints, AreWhereBruteForceFindsThem) {
     LocatedPoints located;
     int inside = 0;
     int touching = 0;
-    for_each_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
+    for_each_crowded_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
         const Points points = points_about(edges, random);
         const double touch = 1e-9;
         const double reach = 0.5 * edges.box.sizes().minCoeff();
@@ -110,7 +110,7 @@ TEST(LocatedPoints, AreWhereBruteForceFindsThem) {
 TEST(LocatedPoints, AreTheSameInParts) {
     LocatedPoints together;
     LocatedPoints alone;
-    for_each_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
+    for_each_crowded_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
         const Points points = points_about(edges, random);
         const LocatedPoints::Distances distances{
             .margin = 1e-3, .touching = 1e-9, .reach = std::numeric_limits<double>::infinity()};

@@ -19,7 +19,7 @@ using geometry::Vector;
 
 /// Calls `check(edges, random)` for awkward shapes, as they are and far from the origin.
 template <class Check>
-void for_each_shape(const Check& check) {
+void for_each_awkward_shape(const Check& check) {
     samples::Random random(211);
     for (const samples::NamedRings& shape : samples::awkward_shapes(random)) {
         for (const Pose& pose : {Pose{}, Pose{{1e6, -3e5}, 0.3}}) {
@@ -108,7 +108,7 @@ int check_points(const simd::TransformedEdges& edges, samples::Random& random,
 TEST(RayParities, OfPointsAreThoseOfEdgeByEdge) {
     RayParities parities;
     int late = 0;
-    for_each_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
+    for_each_awkward_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
         late += check_points(edges, random, parities);
     });
     EXPECT_GT(late, 10000);
@@ -118,7 +118,7 @@ TEST(RayParities, OfPointsAreThoseOfEdgeByEdge) {
 TEST(RayParities, OfPlacesOnEdgesAreThoseOfOneRay) {
     RayParities parities;
     int late = 0;
-    for_each_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
+    for_each_awkward_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
         const simd::AabbTree tree = edges.tree();
         parities.begin(tree);
         std::vector<RayParities::Ticket> tickets;
@@ -152,7 +152,7 @@ TEST(RayParities, AreTheSameOnEveryInstructionSet) {
         hwy::GetChosenTarget().DeInit();
         std::vector<bool> all;
         RayParities parities;
-        for_each_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
+        for_each_awkward_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
             const simd::AabbTree tree = edges.tree();
             parities.begin(tree);
             std::vector<RayParities::Ticket> tickets;

@@ -21,7 +21,7 @@ using geometry::Vector;
 /// Every sample shape at a pose, and stars with few edges, so that the last lanes are full and not
 /// full.
 template <class Check>
-void for_each_shape(const Check& check) {
+void for_each_shape_of_any_size(const Check& check) {
     samples::Random random(77);
     std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
     for (const std::uint32_t size : {3U, 4U, 5U, 6U, 7U, 8U, 9U, 63U, 64U, 65U, 511U, 520U}) {
@@ -39,13 +39,13 @@ void for_each_shape(const Check& check) {
     }
 }
 
-Vector any_point(const TransformedPolygon& placed, samples::Random& random) {
+Vector any_point_near(const TransformedPolygon& placed, samples::Random& random) {
     return placed.to_world({random.between(-1.5, 1.5), random.between(-1.5, 1.5)});
 }
 
 TEST(TransformedEdges, AreThePolygonsOwn) {
-    for_each_shape([](const simd::TransformedEdges& edges, const TransformedPolygon& placed,
-                      samples::Random&) {
+    for_each_shape_of_any_size([](const simd::TransformedEdges& edges,
+                                  const TransformedPolygon& placed, samples::Random&) {
         ASSERT_EQ(edges.count, placed.polygon().size());
         for (std::uint32_t i = 0; i < edges.count; ++i) {
             EXPECT_EQ(edges.start(i), placed.vertex(i));
@@ -104,7 +104,7 @@ void check_lowest_boxes(const simd::TransformedEdges& edges) {
 
 TEST(TransformedEdges, HaveLowestBoxesAroundEachOnce) {
     int in_pieces = 0;
-    for_each_shape(
+    for_each_shape_of_any_size(
         [&](const simd::TransformedEdges& edges, const TransformedPolygon&, samples::Random&) {
             check_lowest_boxes(edges);
             in_pieces += edges.tree().is_in_order() ? 0 : 1;
@@ -164,11 +164,11 @@ TEST(TransformedEdges, KeepTheirPiecesWhereOthersGetSome) {
 
 TEST(TransformedEdges, ContainAndFindTheNearestAsOneByOne) {
     int small = 0;
-    for_each_shape([&](const simd::TransformedEdges& edges, const TransformedPolygon& placed,
-                       samples::Random& random) {
+    for_each_shape_of_any_size([&](const simd::TransformedEdges& edges,
+                                   const TransformedPolygon& placed, samples::Random& random) {
         int inside = 0;
         for (int i = 0; i < 200; ++i) {
-            const Vector point = any_point(placed, random);
+            const Vector point = any_point_near(placed, random);
             const double limit = random.between(0.0, 2.0);
             inside += geometry::contains(placed, point) ? 1 : 0;
             const auto guess = static_cast<std::uint32_t>(random.between(0.0, edges.count - 0.01));
@@ -190,11 +190,11 @@ TEST(TransformedEdges, ContainAndFindTheNearestAsOneByOne) {
 }
 
 TEST(TransformedEdges, AreListedByTheBoxesTheyMeet) {
-    for_each_shape([](const simd::TransformedEdges& edges, const TransformedPolygon& placed,
-                      samples::Random& random) {
+    for_each_shape_of_any_size([](const simd::TransformedEdges& edges,
+                                  const TransformedPolygon& placed, samples::Random& random) {
         for (int i = 0; i < 20; ++i) {
-            Box box(any_point(placed, random));
-            box.extend(any_point(placed, random));
+            Box box(any_point_near(placed, random));
+            box.extend(any_point_near(placed, random));
             std::vector<std::uint32_t> expected;
             for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
                 Box own(edges.start(edge));
@@ -216,11 +216,11 @@ TEST(TransformedEdges, AreListedByTheBoxesTheyMeet) {
 }
 
 TEST(TransformedEdges, SelectTheVerticesInABox) {
-    for_each_shape([](const simd::TransformedEdges& edges, const TransformedPolygon& placed,
-                      samples::Random& random) {
+    for_each_shape_of_any_size([](const simd::TransformedEdges& edges,
+                                  const TransformedPolygon& placed, samples::Random& random) {
         for (int i = 0; i < 20; ++i) {
-            Box box(any_point(placed, random));
-            box.extend(any_point(placed, random));
+            Box box(any_point_near(placed, random));
+            box.extend(any_point_near(placed, random));
             std::vector<double> x(simd::padded(edges.count));
             std::vector<double> y(simd::padded(edges.count));
             const std::uint32_t count = simd::kernels::find_points_in(

@@ -12,7 +12,7 @@ namespace {
 using test::Random;
 using test::Rings;
 
-constexpr std::uint64_t seed = 77001;
+constexpr std::uint64_t overlap_seed = 77001;
 
 TEST(OracleOverlap, AreasOfSimpleShapes) {
     const ShapeOracle big(test::rectangle({0, 0}, {10, 10}));
@@ -62,8 +62,8 @@ TEST(OracleOverlap, ProtrusionOfSimpleShapes) {
 }
 
 TEST(OracleOverlap, AreaAgreesWithThrownPoints) {
-    Random random(seed);
-    const auto shapes = test::every_family(seed);
+    Random random(overlap_seed);
+    const auto shapes = test::every_family(overlap_seed);
     constexpr int thrown = 8000;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         SCOPED_TRACE(shapes[i].name);
@@ -98,7 +98,7 @@ TEST(OracleOverlap, IntersectsCountsTouchingAndContainment) {
 }
 
 TEST(OracleOverlap, PoseForOverlapIsFound) {
-    Random random(seed);
+    Random random(overlap_seed);
     const Rings a = test::star(random, 50, 0.7);
     const Rings b = test::scaled_and_moved(test::coast(random, 200, 0.4), 2.0, {300.0, -40.0});
     const ShapeOracle oracle_a(a);

@@ -14,7 +14,7 @@ namespace {
 using test::Random;
 using test::Rings;
 
-constexpr std::uint64_t seed = 20240611;
+constexpr std::uint64_t points_seed = 20240611;
 
 /// Inside by the winding of angles around each ring, an algorithm different from the oracle's: the
 /// parity of the winding number equals the parity of crossings.
@@ -48,8 +48,8 @@ double distance_by_samples(const Rings& rings, const Vector2& p, int samples) {
 }
 
 TEST(OraclePoints, AgreeWithAnglesAndSamples) {
-    Random random(seed);
-    for (const auto& [name, rings] : test::every_family(seed)) {
+    Random random(points_seed);
+    for (const auto& [name, rings] : test::every_family(points_seed)) {
         SCOPED_TRACE(name);
         const ShapeOracle shape(rings);
         const int samples = shape.size() > 1000 ? 4 : 200;
@@ -69,8 +69,8 @@ TEST(OraclePoints, AgreeWithAnglesAndSamples) {
 }
 
 TEST(OraclePoints, NearestIsTheLeastOverAllEdges) {
-    Random random(seed);
-    for (const auto& [name, rings] : test::every_family(seed + 1)) {
+    Random random(points_seed);
+    for (const auto& [name, rings] : test::every_family(points_seed + 1)) {
         SCOPED_TRACE(name);
         const ShapeOracle shape(rings);
         for (int i = 0; i < 20; ++i) {
@@ -103,8 +103,8 @@ TEST(OraclePoints, LocalMinimaOfARectangle) {
 }
 
 TEST(OraclePoints, SurviveAPoseFarAway) {
-    Random random(seed);
-    for (const auto& [name, rings] : test::every_family(seed + 2)) {
+    Random random(points_seed);
+    for (const auto& [name, rings] : test::every_family(points_seed + 2)) {
         SCOPED_TRACE(name);
         const Pose pose{{random.between(-1e6, 1e6), random.between(-1e6, 1e6)},
                         random.between(-4.0, 4.0)};
@@ -123,8 +123,8 @@ TEST(OraclePoints, SurviveAPoseFarAway) {
 }
 
 TEST(OraclePoints, DeepestIsAboveSamplesAndReached) {
-    Random random(seed);
-    const auto shapes = test::every_family(seed + 3);
+    Random random(points_seed);
+    const auto shapes = test::every_family(points_seed + 3);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         SCOPED_TRACE(shapes[i].name);
         const ShapeOracle a(shapes[i].rings);
@@ -142,7 +142,7 @@ TEST(OraclePoints, DeepestIsAboveSamplesAndReached) {
 }
 
 TEST(OraclePoints, CrossingsLieOnBothBoundaries) {
-    const auto shapes = test::every_family(seed + 4);
+    const auto shapes = test::every_family(points_seed + 4);
     std::size_t found = 0;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         SCOPED_TRACE(shapes[i].name);

@@ -14,11 +14,11 @@
 namespace nearfield {
 namespace {
 
-using test::Place;
 using test::TangledRings;
+using test::WholePlace;
 using test::WindingOracle;
 
-const Ring square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+const Ring clean_square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
 
 CleanedRings cleaned(const std::vector<Ring>& rings, const Cleaning& cleaning = {}) {
     const Expected<CleanedRings> result = clean(rings, cleaning);
@@ -27,8 +27,8 @@ CleanedRings cleaned(const std::vector<Ring>& rings, const Cleaning& cleaning = 
 }
 
 TEST(Cleaning, GoodRingsStayAsTheyAre) {
-    const CleanedRings result = cleaned({square});
-    EXPECT_EQ(result.rings, std::vector<Ring>{square});
+    const CleanedRings result = cleaned({clean_square});
+    EXPECT_EQ(result.rings, std::vector<Ring>{clean_square});
     EXPECT_EQ(result.deviation, 0.0);
     EXPECT_TRUE(result.dropped.empty());
 }
@@ -37,10 +37,10 @@ TEST(Cleaning, RingsThatEncloseNothingAreReported) {
     const CleanedRings result = cleaned({{},
                                          {{7, 8}},
                                          {{1, 1}, {2, 2}, {1, 1}, {2, 2}},
-                                         square,
+                                         clean_square,
                                          {{5, 5}, {6, 6}, {9, 9}},
                                          {{3, 0}, {4, 3e-16}, {5, 0}}});
-    EXPECT_EQ(result.rings, std::vector<Ring>{square});
+    EXPECT_EQ(result.rings, std::vector<Ring>{clean_square});
     ASSERT_EQ(result.dropped.size(), 5U);
     EXPECT_EQ(result.dropped[0].ring, 0U);
     EXPECT_EQ(result.dropped[1].ring, 1U);
@@ -55,7 +55,7 @@ TEST(Cleaning, RingsThatEncloseNothingAreReported) {
 }
 
 TEST(Cleaning, WidthDecides) {
-    const std::vector<Ring> rings{square, {{10, 0}, {20, 0}, {20, 0.01}, {10, 0.01}}};
+    const std::vector<Ring> rings{clean_square, {{10, 0}, {20, 0}, {20, 0.01}, {10, 0.01}}};
     EXPECT_EQ(cleaned(rings).rings.size(), 2U);
     EXPECT_EQ(cleaned(rings, {.width = 0.009}).rings.size(), 2U);
     const CleanedRings result = cleaned(rings, {.width = 0.011});
@@ -68,7 +68,7 @@ TEST(Cleaning, WidthDecides) {
 TEST(Cleaning, VerticesThatDoNotMatterVanish) {
     const CleanedRings result = cleaned(
         {{{0, 0}, {0, 0}, {2, 0}, {3, 0}, {4, 0}, {9, 0}, {4, 0}, {4, 4}, {4, 4}, {0, 4}, {0, 0}}});
-    EXPECT_EQ(result.rings, std::vector<Ring>{square});
+    EXPECT_EQ(result.rings, std::vector<Ring>{clean_square});
     EXPECT_EQ(result.repeated + result.collinear + result.spikes, 6U);
     EXPECT_GE(result.repeated, 2U);
     EXPECT_EQ(result.spikes, 1U);
@@ -78,7 +78,7 @@ TEST(Cleaning, VerticesThatDoNotMatterVanish) {
 TEST(Cleaning, WhatIsLeftOfLongSpikesVanishesToo) {
     const CleanedRings result =
         cleaned({{{0, 0}, {4, 0}, {6, 1}, {7, 3}, {9, 5}, {7, 3}, {6, 1}, {4, 0}, {4, 4}, {0, 4}}});
-    EXPECT_EQ(result.rings, std::vector<Ring>{square});
+    EXPECT_EQ(result.rings, std::vector<Ring>{clean_square});
     EXPECT_EQ(result.deviation, 0.0);
 }
 
@@ -96,8 +96,8 @@ TEST(Cleaning, VerticesExactlyOnLinesCostNoDeviation) {
 
 TEST(Cleaning, RingsThatAreThinWithoutTheirSpikesVanish) {
     const Ring ring{{0, 0}, {5, 0}, {5, -7}, {5.0002, 0}, {10, 0}, {10, 9e-4}, {0, 9e-4}};
-    const CleanedRings result = cleaned({ring, square}, {.width = 1e-3});
-    EXPECT_EQ(result.rings, std::vector<Ring>{square});
+    const CleanedRings result = cleaned({ring, clean_square}, {.width = 1e-3});
+    EXPECT_EQ(result.rings, std::vector<Ring>{clean_square});
     EXPECT_EQ(result.spikes, 0U) << "vertices of dropped rings do not count";
     EXPECT_LE(result.deviation, 1.5e-3);
 }
@@ -143,12 +143,13 @@ TEST(Cleaning, BentSliversVanish) {
 
 TEST(Cleaning, RefusalsNameWhatIsWrong) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    const std::vector<Ring> bad{square, {{1, nan}}};
+    const std::vector<Ring> bad{clean_square, {{1, nan}}};
     const Expected<CleanedRings> coordinates = clean(bad);
     ASSERT_FALSE(coordinates.has_value());
     EXPECT_EQ(coordinates.error().message(), "ring 1, vertex 0: y is not a number");
     for (const double wrong : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
-        const Expected<CleanedRings> width = clean(std::vector<Ring>{square}, {.width = wrong});
+        const Expected<CleanedRings> width =
+            clean(std::vector<Ring>{clean_square}, {.width = wrong});
         ASSERT_FALSE(width.has_value());
         EXPECT_EQ(width.error().code(), StatusCode::invalid_shape);
     }
@@ -175,12 +176,12 @@ TEST(Cleaning, KeepsSidesWithinTheDeviation) {
         const WindingOracle before(rings, tangled.unit(), FillRule::odd_even);
         const WindingOracle after(result.rings, tangled.unit(), FillRule::odd_even);
         const double radius = result.deviation / tangled.unit();
-        for (const std::vector<Place>& ring : before.rings()) {
-            for (const Place& vertex : ring) {
+        for (const std::vector<WholePlace>& ring : before.rings()) {
+            for (const WholePlace& vertex : ring) {
                 const double by = std::max(radius, 4.0) * std::exp2(tangled.uniform(-5, 3));
                 const double angle = tangled.uniform(0, 6.2832);
-                const Place p{vertex.x + std::llround(by * std::cos(angle)),
-                              vertex.y + std::llround(by * std::sin(angle))};
+                const WholePlace p{vertex.x + std::llround(by * std::cos(angle)),
+                                   vertex.y + std::llround(by * std::sin(angle))};
                 const int side = before.side(p);
                 const int now = after.side(p);
                 if (side >= 0 && now >= 0 && side != now) {
@@ -189,10 +190,10 @@ TEST(Cleaning, KeepsSidesWithinTheDeviation) {
                 }
             }
         }
-        for (const std::vector<Place>& ring : after.rings()) {
+        for (const std::vector<WholePlace>& ring : after.rings()) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
-                const Place& next = ring[(i + 1) % ring.size()];
-                const Place middle{ring[i].x / 2 + next.x / 2, ring[i].y / 2 + next.y / 2};
+                const WholePlace& next = ring[(i + 1) % ring.size()];
+                const WholePlace middle{ring[i].x / 2 + next.x / 2, ring[i].y / 2 + next.y / 2};
                 ASSERT_LE(before.distance(middle), radius + 2.0);
             }
         }

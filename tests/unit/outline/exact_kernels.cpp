@@ -12,8 +12,8 @@ namespace {
 
 using exact::Axis;
 using exact::Crossing;
-using test::Place;
 using test::side_of;
+using test::WholePlace;
 using test::Wide;
 
 /// Random points in whole numbers, many of them on or next to a line through others.
@@ -21,15 +21,15 @@ class RandomPlaces {
 public:
     explicit RandomPlaces(std::int64_t largest) : largest_(largest) {}
 
-    Place any() { return {whole(-largest_, largest_), whole(-largest_, largest_)}; }
+    WholePlace any() { return {whole(-largest_, largest_), whole(-largest_, largest_)}; }
     /// Near the line through two points.
-    Place near_line(const Place& a, const Place& b) {
+    WholePlace near_line(const WholePlace& a, const WholePlace& b) {
         const double part = std::uniform_real_distribution<double>(-0.5, 1.5)(random_);
         return {a.x + std::llround(part * static_cast<double>(b.x - a.x)) + whole(-1, 1),
                 a.y + std::llround(part * static_cast<double>(b.y - a.y)) + whole(-1, 1)};
     }
     /// Exactly on a line through a point.
-    Place on_line(const Place& a, const Place& step) {
+    WholePlace on_line(const WholePlace& a, const WholePlace& step) {
         const std::int64_t steps = whole(-1000, 1000);
         return {a.x + steps * step.x, a.y + steps * step.y};
     }
@@ -42,7 +42,7 @@ private:
     std::mt19937_64 random_{1};
 };
 
-Vector2 point(const Place& place, double unit) {
+Vector2 point(const WholePlace& place, double unit) {
     return {static_cast<double>(place.x) * unit, static_cast<double>(place.y) * unit};
 }
 
@@ -50,9 +50,9 @@ TEST(ExactKernels, OrientationHasNoRounding) {
     RandomPlaces places(std::int64_t{1} << 51U);
     for (int i = 0; i < 100'000; ++i) {
         const double unit = std::ldexp(1.0, static_cast<int>(places.whole(-190, 8)));
-        const Place a = places.any();
-        const Place b = i % 2 == 0 ? places.any() : places.on_line(a, {i % 1000, 999 - i});
-        const Place c =
+        const WholePlace a = places.any();
+        const WholePlace b = i % 2 == 0 ? places.any() : places.on_line(a, {i % 1000, 999 - i});
+        const WholePlace c =
             i % 2 == 0 ? places.near_line(a, b) : places.on_line(a, {i % 1000, 999 - i});
         ASSERT_EQ(exact::orientation(point(a, unit), point(b, unit), point(c, unit)),
                   side_of(a, b, c));
@@ -79,7 +79,8 @@ TEST(ExactKernels, OrientationOfDifferentMagnitudes) {
 }
 
 /// The sign of the crossing's x less value, in whole numbers.
-int compare_x(const Place& a, const Place& b, const Place& c, const Place& d, std::int64_t value) {
+int compare_x(const WholePlace& a, const WholePlace& b, const WholePlace& c, const WholePlace& d,
+              std::int64_t value) {
     const Wide of_a =
         static_cast<Wide>(d.x - c.x) * (b.y - c.y) - static_cast<Wide>(d.y - c.y) * (b.x - c.x);
     const Wide of_b =
@@ -89,7 +90,7 @@ int compare_x(const Place& a, const Place& b, const Place& c, const Place& d, st
     return of_b > 0 ? sign : -sign;
 }
 
-bool cross(const Place& a, const Place& b, const Place& c, const Place& d) {
+bool cross(const WholePlace& a, const WholePlace& b, const WholePlace& c, const WholePlace& d) {
     return side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
 }
 
@@ -98,10 +99,10 @@ TEST(ExactKernels, CoordinatesOfCrossingsAreComparedWithoutRounding) {
     int crossings = 0;
     int hits = 0;
     for (int i = 0; i < 100'000; ++i) {
-        const Place a = places.any();
-        const Place b = places.any();
-        const Place c = i % 2 == 0 ? places.any() : places.near_line(a, b);
-        const Place d = i % 2 == 0 ? places.any() : places.near_line(a, b);
+        const WholePlace a = places.any();
+        const WholePlace b = places.any();
+        const WholePlace c = i % 2 == 0 ? places.any() : places.near_line(a, b);
+        const WholePlace d = i % 2 == 0 ? places.any() : places.near_line(a, b);
         if (!cross(a, b, c, d)) {
             continue;
         }
@@ -123,13 +124,13 @@ TEST(ExactKernels, CoordinatesOfCrossingsAreComparedWithoutRounding) {
     EXPECT_GT(crossings, 10'000);
     // Segments that cross exactly at a place.
     for (int i = 0; i < 20'000; ++i) {
-        const Place at = places.any();
-        const Place first{places.whole(1, 1000), places.whole(-1000, 1000)};
-        const Place second{places.whole(-1000, 1000), places.whole(1, 1000)};
-        const Place a{at.x - 3 * first.x, at.y - 3 * first.y};
-        const Place b{at.x + 7 * first.x, at.y + 7 * first.y};
-        const Place c{at.x - 5 * second.x, at.y - 5 * second.y};
-        const Place d{at.x + 2 * second.x, at.y + 2 * second.y};
+        const WholePlace at = places.any();
+        const WholePlace first{places.whole(1, 1000), places.whole(-1000, 1000)};
+        const WholePlace second{places.whole(-1000, 1000), places.whole(1, 1000)};
+        const WholePlace a{at.x - 3 * first.x, at.y - 3 * first.y};
+        const WholePlace b{at.x + 7 * first.x, at.y + 7 * first.y};
+        const WholePlace c{at.x - 5 * second.x, at.y - 5 * second.y};
+        const WholePlace d{at.x + 2 * second.x, at.y + 2 * second.y};
         if (cross(a, b, c, d)) {
             const Crossing crossing{point(a, 1.0), point(b, 1.0), point(c, 1.0), point(d, 1.0)};
             const auto limit = static_cast<double>(at.x);

@@ -16,9 +16,9 @@
 namespace nearfield {
 namespace {
 
-using test::Place;
 using test::side_of;
 using test::TangledRings;
+using test::WholePlace;
 using test::WindingOracle;
 
 std::uint64_t from_environment(const char* name, std::uint64_t usual) {
@@ -41,7 +41,7 @@ const char* name_of(FillRule rule) {
 }
 
 /// True if the segments have a point in common other than an end of both.
-bool interfere(const Place& a, const Place& b, const Place& c, const Place& d) {
+bool interfere(const WholePlace& a, const WholePlace& b, const WholePlace& c, const WholePlace& d) {
     const int of_c = side_of(a, b, c);
     const int of_d = side_of(a, b, d);
     const int of_a = side_of(c, d, a);
@@ -49,7 +49,7 @@ bool interfere(const Place& a, const Place& b, const Place& c, const Place& d) {
     if (of_c * of_d < 0 && of_a * of_b < 0) {
         return true;
     }
-    const auto inside = [](const Place& from, const Place& to, const Place& p) {
+    const auto inside = [](const WholePlace& from, const WholePlace& to, const WholePlace& p) {
         const bool is_end = (p.x == from.x && p.y == from.y) || (p.x == to.x && p.y == to.y);
         return !is_end && std::min(from.x, to.x) <= p.x && p.x <= std::max(from.x, to.x) &&
                std::min(from.y, to.y) <= p.y && p.y <= std::max(from.y, to.y);
@@ -88,36 +88,36 @@ private:
     }
 
     /// A point in the deviation's order of magnitude from another one, or far away.
-    Place beside(const Place& p) {
+    WholePlace beside(const WholePlace& p) {
         const double by = radius_ * std::exp2(uniform(-6.0, 4.0));
         const double angle = uniform(0.0, 6.2832);
         return {p.x + std::llround(by * std::cos(angle)), p.y + std::llround(by * std::sin(angle))};
     }
 
-    static Place between(const Place& a, const Place& b, double part) {
+    static WholePlace between(const WholePlace& a, const WholePlace& b, double part) {
         return {a.x + std::llround(part * static_cast<double>(b.x - a.x)),
                 a.y + std::llround(part * static_cast<double>(b.y - a.y))};
     }
 
     void check_sides(const WindingOracle& result) {
-        const auto check_ring = [&](const std::vector<Place>& ring) {
+        const auto check_ring = [&](const std::vector<WholePlace>& ring) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
-                const Place& next = ring[(i + 1) % ring.size()];
+                const WholePlace& next = ring[(i + 1) % ring.size()];
                 check_side(result, beside(ring[i]));
                 check_side(result, beside(between(ring[i], next, uniform(0.0, 1.0))));
                 // Far from all edges, mostly.
                 check_side(result, {ring[i].x, next.y});
             }
         };
-        for (const std::vector<Place>& ring : oracle_.rings()) {
+        for (const std::vector<WholePlace>& ring : oracle_.rings()) {
             check_ring(ring);
         }
-        for (const std::vector<Place>& ring : result.rings()) {
+        for (const std::vector<WholePlace>& ring : result.rings()) {
             check_ring(ring);
         }
     }
 
-    void check_side(const WindingOracle& result, const Place& p) {
+    void check_side(const WindingOracle& result, const WholePlace& p) {
         const int wanted = oracle_.side(p);
         const int found = result.side(p);
         if (wanted < 0 || found < 0 || wanted == found) {
@@ -130,9 +130,10 @@ private:
 
     /// Both sides of the region are near every point of the result's edges.
     void check_boundary(const WindingOracle& result) {
-        for (const std::vector<Place>& ring : result.rings()) {
+        for (const std::vector<WholePlace>& ring : result.rings()) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
-                const Place p = between(ring[i], ring[(i + 1) % ring.size()], uniform(0.0, 1.0));
+                const WholePlace p =
+                    between(ring[i], ring[(i + 1) % ring.size()], uniform(0.0, 1.0));
                 EXPECT_TRUE(oracle_.has_near(p, radius_ + 4.0, 0)) << "an inner edge remains";
                 EXPECT_TRUE(oracle_.has_near(p, radius_ + 4.0, 1)) << "an outer edge came up";
             }
@@ -141,10 +142,10 @@ private:
 
     static void check_planar(const WindingOracle& result) {
         struct Edge {
-            Place a, b;
+            WholePlace a, b;
         };
         std::vector<Edge> edges;
-        for (const std::vector<Place>& ring : result.rings()) {
+        for (const std::vector<WholePlace>& ring : result.rings()) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
             }

@@ -16,13 +16,13 @@ namespace nearfield::test {
 __extension__ using Wide = __int128;
 
 /// A point in units.
-struct Place {
+struct WholePlace {
     std::int64_t x = 0;
     std::int64_t y = 0;
 };
 
 /// More than 0 to the left of the line from a to b. Coordinates are below 2^62.
-inline int side_of(const Place& a, const Place& b, const Place& p) {
+inline int side_of(const WholePlace& a, const WholePlace& b, const WholePlace& p) {
     const Wide left = static_cast<Wide>(b.x - a.x) * (p.y - a.y);
     const Wide right = static_cast<Wide>(b.y - a.y) * (p.x - a.x);
     return (left > right ? 1 : 0) - (left < right ? 1 : 0);
@@ -30,22 +30,22 @@ inline int side_of(const Place& a, const Place& b, const Place& p) {
 
 /// A place and a small offset, in units: a point between the places.
 struct Spot {
-    Place place;
+    WholePlace place;
     long double dx = 0.0L;
     long double dy = 0.0L;
 
     /// A coordinate relative to this one. Exact for places no farther than 2^63.
-    [[nodiscard]] long double x_of(const Place& p) const {
+    [[nodiscard]] long double x_of(const WholePlace& p) const {
         return static_cast<long double>(p.x - place.x) - dx;
     }
-    [[nodiscard]] long double y_of(const Place& p) const {
+    [[nodiscard]] long double y_of(const WholePlace& p) const {
         return static_cast<long double>(p.y - place.y) - dy;
     }
 };
 
 /// The same for a spot. Exact without an offset; otherwise wrong at most for spots that are closer
 /// to the line than 2^-40 of the offset.
-inline int side_of(const Place& a, const Place& b, const Spot& spot) {
+inline int side_of(const WholePlace& a, const WholePlace& b, const Spot& spot) {
     const Wide left = static_cast<Wide>(b.x - a.x) * (spot.place.y - a.y);
     const Wide right = static_cast<Wide>(b.y - a.y) * (spot.place.x - a.x);
     const long double by = static_cast<long double>(b.x - a.x) * spot.dy -
@@ -75,7 +75,7 @@ public:
             }
             --left;
             parts_.push_back(part);
-            std::vector<Place>& places = rings_.emplace_back();
+            std::vector<WholePlace>& places = rings_.emplace_back();
             for (const Vector2& vertex : ring) {
                 places.push_back({static_cast<std::int64_t>(vertex.x / unit),
                                   static_cast<std::int64_t>(vertex.y / unit)});
@@ -83,10 +83,10 @@ public:
         }
     }
 
-    [[nodiscard]] const std::vector<std::vector<Place>>& rings() const { return rings_; }
+    [[nodiscard]] const std::vector<std::vector<WholePlace>>& rings() const { return rings_; }
 
     /// 1 inside the region, 0 outside, -1 on an edge (of the region or inside it).
-    [[nodiscard]] int side(const Place& p) const { return side(Spot{p}); }
+    [[nodiscard]] int side(const WholePlace& p) const { return side(Spot{p}); }
     /// The same between the places.
     [[nodiscard]] int side(const Spot& spot) const {
         int total = 0;
@@ -119,7 +119,7 @@ public:
     /// True if a point within a radius (in units) of p has the given side. A region that reaches
     /// into the disc reaches its rim between two edges, or has a vertex or a crossing in the disc;
     /// these places are looked at where a pattern of points and the sides of edges do not suffice.
-    [[nodiscard]] bool has_near(const Place& p, double radius, int wanted) const {
+    [[nodiscard]] bool has_near(const WholePlace& p, double radius, int wanted) const {
         if (side(p) == wanted) {
             return true;
         }
@@ -145,12 +145,12 @@ public:
     }
 
     /// The distance from p to the nearest edge, in units, up to rounding.
-    [[nodiscard]] double distance(const Place& p) const {
+    [[nodiscard]] double distance(const WholePlace& p) const {
         double least = INFINITY;
-        for (const std::vector<Place>& ring : rings_) {
+        for (const std::vector<WholePlace>& ring : rings_) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
-                const Place& a = ring[i];
-                const Place& b = ring[(i + 1) % ring.size()];
+                const WholePlace& a = ring[i];
+                const WholePlace& b = ring[(i + 1) % ring.size()];
                 const auto dx = static_cast<long double>(b.x - a.x);
                 const auto dy = static_cast<long double>(b.y - a.y);
                 const auto px = static_cast<long double>(p.x - a.x);
@@ -167,10 +167,10 @@ public:
 
 private:
     /// Adds the winding number of one ring; false if the spot is on it.
-    static bool add_winding(const std::vector<Place>& ring, const Spot& spot, int& winding) {
+    static bool add_winding(const std::vector<WholePlace>& ring, const Spot& spot, int& winding) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Place& a = ring[i];
-            const Place& b = ring[i + 1 == ring.size() ? 0 : i + 1];
+            const WholePlace& a = ring[i];
+            const WholePlace& b = ring[i + 1 == ring.size() ? 0 : i + 1];
             const long double from = spot.y_of(a);
             const long double to = spot.y_of(b);
             if (std::max(from, to) < 0 || std::min(from, to) > 0 ||
@@ -190,14 +190,14 @@ private:
         return true;
     }
 
-    [[nodiscard]] bool is(const Place& p, long double dx, long double dy, double radius,
+    [[nodiscard]] bool is(const WholePlace& p, long double dx, long double dy, double radius,
                           int wanted) const {
         return std::hypot(dx, dy) <= radius && side(Spot{p, dx, dy}) == wanted;
     }
 
     /// Looks beside the part of an edge that is within the radius.
-    [[nodiscard]] bool edge_has(const Place& a, const Place& b, const Place& p, double radius,
-                                int wanted) const {
+    [[nodiscard]] bool edge_has(const WholePlace& a, const WholePlace& b, const WholePlace& p,
+                                double radius, int wanted) const {
         const auto dx = static_cast<long double>(b.x - a.x);
         const auto dy = static_cast<long double>(b.y - a.y);
         const auto px = static_cast<long double>(p.x - a.x);
@@ -232,12 +232,12 @@ private:
         long double cross;   // x dy - y dx, rounded once
     };
 
-    [[nodiscard]] std::vector<Chord> chords(const Place& p) const {
+    [[nodiscard]] std::vector<Chord> chords(const WholePlace& p) const {
         std::vector<Chord> result;
-        for (const std::vector<Place>& ring : rings_) {
+        for (const std::vector<WholePlace>& ring : rings_) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
-                const Place& a = ring[i];
-                const Place& b = ring[(i + 1) % ring.size()];
+                const WholePlace& a = ring[i];
+                const WholePlace& b = ring[(i + 1) % ring.size()];
                 const Wide cross = static_cast<Wide>(a.x - p.x) * (b.y - a.y) -
                                    static_cast<Wide>(a.y - p.y) * (b.x - a.x);
                 result.push_back(
@@ -250,7 +250,7 @@ private:
     }
 
     /// Looks between the edges that pass the rim of the disc.
-    [[nodiscard]] bool rim_has(const Place& p, double radius, int wanted) const {
+    [[nodiscard]] bool rim_has(const WholePlace& p, double radius, int wanted) const {
         const long double inner = radius - 1.0L;
         std::vector<long double> angles;
         for (const Chord& chord : chords(p)) {
@@ -281,7 +281,7 @@ private:
     }
 
     /// Looks around vertices and crossings in the disc.
-    [[nodiscard]] bool corner_has(const Place& p, double radius, int wanted) const {
+    [[nodiscard]] bool corner_has(const WholePlace& p, double radius, int wanted) const {
         const std::vector<Chord> all = chords(p);
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (around(p, all[i].x, all[i].y, radius, wanted)) {
@@ -301,7 +301,7 @@ private:
         return false;
     }
 
-    [[nodiscard]] bool around(const Place& p, long double x, long double y, double radius,
+    [[nodiscard]] bool around(const WholePlace& p, long double x, long double y, double radius,
                               int wanted) const {
         if (std::hypot(x, y) > radius) {
             return false;
@@ -318,7 +318,7 @@ private:
     }
 
     FillRule rule_;
-    std::vector<std::vector<Place>> rings_;
+    std::vector<std::vector<WholePlace>> rings_;
     std::vector<std::size_t> parts_;
 };
 

@@ -149,7 +149,7 @@ TEST(SafeStep, OfMorePairsThanAreTestedStopsShortOfTheOthers) {
     EXPECT_GE(distance_at(pair.of_a(), pair.of_b(), impact.time), keep);
 }
 
-Polygon any_polygon(samples::Random& random) {
+Polygon any_moving_polygon(samples::Random& random) {
     const double size = random.between(0.02, 1.0);
     samples::Rings rings{random.below(2) == 0
                              ? samples::star(random, 3 + random.below(4), 0.3 * size, size)
@@ -165,7 +165,12 @@ Moving any_pair(samples::Random& random) {
         return Pose{{random.between(-4.0, 4.0), random.between(-4.0, 4.0)},
                     random.below(4) == 0 ? 0.0 : random.between(-turn, turn)};
     };
-    return {any_polygon(random), any_polygon(random), pose(3.0), pose(9.0), pose(3.0), pose(9.0)};
+    return {any_moving_polygon(random),
+            any_moving_polygon(random),
+            pose(3.0),
+            pose(9.0),
+            pose(3.0),
+            pose(9.0)};
 }
 
 TEST(SafeStep, IsNeverTooLongForAnyMotion) {
