@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# The examples that are independent projects, built with only the installed package, static and
-# shared, and run.
+# The examples that are independent projects, built with only the installed package and run: the
+# first with both libraries, the others with the static one.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-# build_and_run EXAMPLE PATTERN: with both libraries; the output must match.
+# build_and_run EXAMPLE PATTERN SHARED...: for each SHARED (ON or OFF); the output must match.
 build_and_run() {
     local work shared output
-    for shared in ON OFF; do
+    for shared in "${@:3}"; do
         work="$place/example $1 $shared"
         mkdir "$work"
         cp -r "$SOURCE/examples/$1" "$work/source"
@@ -22,9 +22,9 @@ build_and_run() {
     done
 }
 
-build_and_run hello '^\(8\.5, 0\.5\) is 0\.5 deep; out along \(-1, 0\)$'
-build_and_run host '[0-9]+ points inside, the deepest by (1|0\.9)'
-build_and_run vulkan_hpp 'frame 5: [1-9][0-9]* contacts, [1-9][0-9]* inside.device and CPU agree$'
+build_and_run hello '^\(8\.5, 0\.5\) is 0\.5 deep; out along \(-1, 0\)$' ON OFF
+build_and_run host '[0-9]+ points inside, the deepest by (1|0\.9)' OFF
+build_and_run vulkan_hpp 'frame 5: [1-9][0-9]* contacts, [1-9][0-9]* inside.device and CPU agree$' OFF
 # It is the README's program, includes no header of Vulkan's, and opens no Vulkan loader.
 [[ $(sed -n '/^```cpp$/,/^```$/p' "$SOURCE/README.md" | sed '1d; /^```$/,$d') == \
     "$(<"$SOURCE/examples/hello/main.cpp")" ]] || fail "the README has another program than hello"
