@@ -76,14 +76,6 @@ Fields::Fields(const gpu::Device& device, const graph::ComputeLayout& layout)
       points_(device, layout, shaders::resolve_field_points_by_walks_comp,
               "nearfield resolve field points by walks") {}
 
-void Fields::declare_fill(TileGraph& graph, graph::Handle input, graph::Handle& scratch) const {
-    add_pass(
-        graph, "fill rows", rows_, {{0, input}, {1, scratch, write}},
-        [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            dispatch_threads_of(shader, commands, context, context.batch.work.fields.rows);
-        });
-}
-
 void Fields::declare_lists(TileGraph& graph, Buffers& buffers) const {
     for (const ListPass& list : lists_) {
         graph::Handle none;
@@ -104,31 +96,32 @@ void Fields::declare_lists(TileGraph& graph, Buffers& buffers) const {
     }
 }
 
-void Fields::declare_values(TileGraph& graph, Buffers buffers, graph::Handle& field) const {
+void Fields::declare_cells(TileGraph& graph, Buffers buffers, const Cells& cells,
+                           Output& output) const {
     add_pass(
-        graph, "resolve blocks", values_,
-        {{0, buffers.input}, {1, buffers.scratch}, {3, field, write}},
+        graph, "fill rows", rows_, {{0, buffers.input}, {1, buffers.scratch, write}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            dispatch_threads_of(
-                shader, commands, context,
-                std::uint64_t{plan::threads_per_block} * context.batch.work.fields.blocks);
+            dispatch_threads_of(shader, commands, context, context.batch.work.fields.rows);
         });
-}
-
-void Fields::declare_features(TileGraph& graph, Buffers buffers, graph::Handle& field) const {
-    add_pass(
-        graph, "resolve features", features_,
-        {{0, buffers.input}, {1, buffers.scratch}, {3, field, write}},
-        [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            constexpr std::uint64_t cells_per_thread = 4;
-            constexpr std::uint64_t threads =
-                std::uint64_t{plan::block_side} * plan::block_side / cells_per_thread;
-            dispatch_threads_of(shader, commands, context,
-                                threads * context.batch.work.fields.blocks);
-        });
-}
-
-void Fields::declare_crowded(TileGraph& graph, Buffers buffers, Output& output) const {
+    declare_lists(graph, buffers);
+    const auto add_resolve = [&](const char* name, const ComputeShader& resolve,
+                                 std::uint64_t threads_per_block) {
+        add_pass(graph, name, resolve,
+                 {{0, buffers.input}, {1, buffers.scratch}, {3, output.field, write}},
+                 [threads_per_block](const ComputeShader& shader, VkCommandBuffer commands,
+                                     const RecordContext& context) {
+                     dispatch_threads_of(shader, commands, context,
+                                         threads_per_block * context.batch.work.fields.blocks);
+                 });
+    };
+    if (cells.values) {
+        add_resolve("resolve blocks", values_, plan::threads_per_block);
+    }
+    if (cells.features) {
+        constexpr std::uint32_t cells_per_thread = 4;
+        add_resolve("resolve features", features_,
+                    plan::block_side * plan::block_side / cells_per_thread);
+    }
     add_pass(
         graph, "resolve crowded blocks", crowded_,
         {{0, buffers.input},

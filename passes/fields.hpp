@@ -20,8 +20,6 @@ class Fields {
 public:
     Fields(const gpu::Device& device, const graph::ComputeLayout& layout);
 
-    /// Adds the pass that fills the rows of the masks, in which edges are marked.
-    void declare_fill(TileGraph& graph, graph::Handle input, graph::Handle& scratch) const;
     /// The buffers of the passes; `input`: shapes and tiles; `crowd`: the arguments of the dispatch
     /// for crowded blocks.
     struct Buffers {
@@ -29,20 +27,19 @@ public:
         graph::Handle scratch;
         graph::Handle crowd;
     };
-    /// Adds the passes that list edges.
-    void declare_lists(TileGraph& graph, Buffers& buffers) const;
-    /// Adds the pass that writes the signed distances of cells; reads the masks for the signs.
-    void declare_values(TileGraph& graph, Buffers buffers, graph::Handle& field) const;
-    /// Adds the pass that writes the nearest features of cells.
-    void declare_features(TileGraph& graph, Buffers buffers, graph::Handle& field) const;
+    /// What the passes write of cells: signed distances, nearest features.
+    struct Cells {
+        bool values = false;
+        bool features = false;
+    };
     /// What a pass writes that searches place by place: the number of places for which that took
     /// too long, and the results.
     struct Output {
         graph::Handle long_searches;
         graph::Handle field;
     };
-    /// Adds the pass that writes both in crowded blocks.
-    void declare_crowded(TileGraph& graph, Buffers buffers, Output& output) const;
+    /// Adds the passes for cells. The masks have the edges of the fields already.
+    void declare_cells(TileGraph& graph, Buffers buffers, const Cells& cells, Output& output) const;
     /// Adds the pass for points of fields; it writes the same words as ResolveField.
     void declare_points(TileGraph& graph, graph::Handle input, Output& output) const;
 
@@ -55,6 +52,8 @@ private:
     };
     static std::vector<ListPass> make_lists(const gpu::Device& device,
                                             const graph::ComputeLayout& layout, bool by_groups);
+    /// Adds the passes that list edges.
+    void declare_lists(TileGraph& graph, Buffers& buffers) const;
 
     ComputeShader rows_;
     bool lists_by_groups_;

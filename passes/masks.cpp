@@ -25,7 +25,7 @@ Masks::Masks(const gpu::Device& device, const graph::ComputeLayout& layout)
       collect_(device, layout, shaders::collect_masks_comp, "nearfield collect masks") {}
 
 // The scratch memory belongs to the tile batch, whose former use has been waited for.
-void Masks::declare_clear(TileGraph& graph, graph::Handle& scratch) const {
+void Masks::declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle& scratch) const {
     graph.add_pass(
         "clear masks", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) { scratch = pass.write(scratch, Access::transfer_write); },
@@ -44,9 +44,6 @@ void Masks::declare_clear(TileGraph& graph, graph::Handle& scratch) const {
                 fill(work.field_lists().crowd - std::uint64_t{1}, 1, 0);
             }
         });
-}
-
-void Masks::declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle& scratch) const {
     add_pass(
         graph, "mask shapes", shapes_, {{0, shapes}, {1, scratch, write}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {

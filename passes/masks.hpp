@@ -14,11 +14,10 @@ class Masks {
 public:
     Masks(const gpu::Device& device, const graph::ComputeLayout& layout);
 
-    /// Adds the pass that clears masks and the edges of cells; the first of all passes that use the
-    /// scratch memory. It waits for earlier use of that memory on the device, so tile batches may
-    /// follow each other in a command buffer or in a queue.
-    void declare_clear(TileGraph& graph, graph::Handle& scratch) const;
-    /// Adds the pass that puts shapes into masks: of volumes it marks the edges.
+    /// Adds the pass that clears masks and the edges of cells, and the one that puts shapes into
+    /// masks: of volumes it marks the edges. They are the first of all passes that use the scratch
+    /// memory, and wait for earlier use of that memory on the device, so tile batches may follow
+    /// each other in a command buffer or in a queue.
     void declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle& scratch) const;
     /// Adds the pass that fills the rows of intersections and writes the same output as Collect.
     void declare_collect(TileGraph& graph, graph::Handle shapes, graph::Handle& scratch,

@@ -39,32 +39,16 @@ void ComputeGraph::declare_masked(const PipelineSet& passes, passes::Fields::Out
         needs_.keeps_hits ? import_buffer({"scratch"}, {{}, graph::Access::storage_read_in_compute})
                           : import_buffer({"scratch", false, false});
     Handle scratch = handles_.scratch;
-    passes.masks().declare_clear(*this, scratch);
     passes.masks().declare_shapes(*this, handles_.shapes, scratch);
-    if (needs_.fields()) {
-        passes.fields().declare_fill(*this, handles_.shapes, scratch);
-    }
     if (needs_.overlap) {
         outputs_.samples = import_buffer({"samples", true, true});
         passes.masks().declare_collect(*this, handles_.shapes, scratch, outputs_.samples);
     }
     if (needs_.fields()) {
-        declare_cells(passes.fields(), scratch, output);
+        handles_.crowd = import_buffer({"crowded blocks", true, false});
+        passes.fields().declare_cells(*this, {handles_.shapes, scratch, handles_.crowd},
+                                      {needs_.field_values, needs_.field_features}, output);
     }
-}
-
-void ComputeGraph::declare_cells(const passes::Fields& fields, Handle scratch,
-                                 passes::Fields::Output& output) {
-    handles_.crowd = import_buffer({"crowded blocks", true, false});
-    passes::Fields::Buffers buffers{handles_.shapes, scratch, handles_.crowd};
-    fields.declare_lists(*this, buffers);
-    if (needs_.field_values) {
-        fields.declare_values(*this, buffers, output.field);
-    }
-    if (needs_.field_features) {
-        fields.declare_features(*this, buffers, output.field);
-    }
-    fields.declare_crowded(*this, buffers, output);
 }
 
 std::unique_ptr<TileWork> ComputeTechnique::make_work() {

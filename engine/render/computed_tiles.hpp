@@ -47,8 +47,6 @@ public:
 private:
     /// The passes over masks, and of fields at cells, which write `output`.
     void declare_masked(const PipelineSet& passes, passes::Fields::Output& output);
-    void declare_cells(const passes::Fields& fields, graph::Handle scratch,
-                       passes::Fields::Output& output);
 
     ComputeKey needs_;
     ComputeHandles handles_;
