@@ -1,5 +1,5 @@
 #include <passes/export_pairs.hpp>
-#include <passes/search_shaders.hpp>
+#include <passes/pair_search.hpp>
 
 #include <shaders/export_pair_records_comp.hpp>
 #include <shaders/export_pairs_comp.hpp>

@@ -3,7 +3,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/world_question.hpp>
-#include <passes/search_shaders.hpp>
+#include <passes/pair_search.hpp>
 
 #include <shaders/world_queries.h>
 

@@ -10,7 +10,6 @@
 #include <passes/masks.hpp>
 #include <passes/pair_poses.hpp>
 #include <passes/pair_search.hpp>
-#include <passes/search_shaders.hpp>
 #include <passes/world_queries.hpp>
 
 #include <array>
