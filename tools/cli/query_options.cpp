@@ -138,7 +138,7 @@ struct QueryKind {
     const char* example;  ///< the arguments after "nearfield query KIND"
 };
 
-constexpr std::array<QueryKind, 10> query_kinds{{
+constexpr auto query_kinds = std::to_array<QueryKind>({
     {QueryType::penetration, "How deep the boundary of A lies inside B, and the way out",
      "A.geojson B.wkt -d 0.8 --json - --image out.png"},
     {QueryType::contacts, "The points of either boundary near the other, and normals",
@@ -159,7 +159,8 @@ constexpr std::array<QueryKind, 10> query_kinds{{
      "A.geojson B.wkt -d 1 --pose-b 120,20,30"},
     {QueryType::containment, "Whether A lies inside B, and its clearance to B's boundary",
      "A.geojson B.wkt --pose-b 120,20,30"},
-}};
+});
+static_assert(query_kinds.size() == names<QueryType>.size());
 
 /// The meaning of -d for a kind.
 const char* describe_tolerance(QueryType type) {
