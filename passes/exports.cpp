@@ -2,7 +2,6 @@
 #include <passes/exports.hpp>
 
 #include <shaders/export_field_comp.hpp>
-#include <shaders/export_headers_comp.hpp>
 #include <shaders/export_records_comp.hpp>
 #include <shaders/export_samples_comp.hpp>
 
@@ -47,7 +46,8 @@ void dispatch_step(const ComputeShader& shader, VkCommandBuffer commands,
                    std::uint32_t first_tile, std::uint32_t tile_count, std::uint32_t threads) {
     shader.push(commands,
                 plan::ExportSamplesPush{step, table, first_tile, tile_count, samples.block_count,
-                                        samples.capacity, static_cast<float>(samples.cell)});
+                                        samples.capacity, static_cast<float>(samples.cell),
+                                        plan::rounded(samples.origin)});
     shader.dispatch_threads(commands, threads);
 }
 
@@ -103,14 +103,17 @@ ExportField::ExportField(const gpu::Device& device, const graph::ComputeLayout& 
       tables(graph.import_buffer({"tables", true, false})),
       signed_distance(
           graph.import_image({"signed distance", VK_FORMAT_R32_SFLOAT}, exported_image)),
-      feature(graph.import_image({"feature id", VK_FORMAT_R32_UINT}, exported_image)) {
+      feature(graph.import_image({"feature id", VK_FORMAT_R32_UINT}, exported_image)),
+      header(graph.import_buffer({"resident header"}, exported_buffer)) {
+    graph::Handle written = header;
     graph::Handle distances = signed_distance;
     graph::Handle features = feature;
     add_pass(graph, "export field", shader,
              {{0, words},
               {1, tables},
               {6, distances, Access::storage_image_in_compute},
-              {7, features, Access::storage_image_in_compute}},
+              {7, features, Access::storage_image_in_compute},
+              {3, written, write}},
              dispatch_parts);
     graph.compile(device);
 }
@@ -120,9 +123,9 @@ ExportRecords::ExportRecords(const gpu::Device& device, const graph::ComputeLayo
     : shader(device, layout, shaders::export_records_comp, "nearfield export records"),
       shapes(graph.import_buffer({"pair shapes", true, false})),
       scratch(graph.import_buffer({"pair scratch"}, after_tiles)),
-      blocks(graph.import_buffer({"record blocks"}, {write, {}})),
+      header(graph.import_buffer({"resident header"}, exported_buffer)),
       records(graph.import_buffer({"records"}, exported_buffer)) {
-    graph::Handle counted = blocks;
+    graph::Handle counted = header;
     graph::Handle output = records;
     // The first pass writes no record. It waits for a buffer of the host all the same: its shader
     // has the binding, and to validation layers that is an access.
@@ -151,9 +154,9 @@ ExportSamples::ExportSamples(const gpu::Device& device, const graph::ComputeLayo
       summaries(graph.import_buffer({"tile summaries"}, after_tiles)),
       masks(graph.import_buffer({"masks"}, {read, {}})),
       tables(graph.import_buffer({"tables", true, false})),
-      blocks(graph.import_buffer({"sample blocks"})),
+      header(graph.import_buffer({"resident header"}, exported_buffer)),
       samples(graph.import_buffer({"resident samples"}, exported_buffer)) {
-    graph::Handle counted = blocks;
+    graph::Handle counted = header;
     graph::Handle output = samples;
     // The first pass writes no sample; see ExportRecords.
     add_pass(graph, "count samples", shader,
@@ -174,29 +177,6 @@ ExportSamples::ExportSamples(const gpu::Device& device, const graph::ComputeLayo
                  dispatch_rows(of, commands, input, 0, plan::write_step);
              });
     graph.compile(device);
-}
-
-// The graphs of records and samples leave their summaries readable by compute shaders, so the first
-// barrier only has to keep this pass behind them.
-ExportHeaders::ExportHeaders(const gpu::Device& device, const graph::ComputeLayout& layout)
-    : shader(device, layout, shaders::export_headers_comp, "nearfield export headers"),
-      summary(graph.import_buffer({"summary"}, {read, {}})),
-      headers(graph.import_buffer({"resident headers"}, exported_buffer)) {
-    graph::Handle output = headers;
-    add_pass(graph, "export headers", shader, {{2, summary}, {3, output, write, 1}},
-             [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
-                 for (std::size_t i = 0; i < input.headers.size(); ++i) {
-                     of.bind_set(commands, commands.set_of(input.resources[i]));
-                     of.push(commands, input.headers[i]);
-                     of.dispatch(commands, 1);
-                 }
-             });
-    graph.compile(device);
-}
-
-graph::ExternalUses ExportHeaders::uses(VkPipelineStageFlags readers) {
-    const graph::AccessTraits& exported = graph::traits(Access::exported_buffer);
-    return {{exported.stages, exported.access()}, {exported.stages | readers, exported.access()}};
 }
 
 }  // namespace nearfield::passes

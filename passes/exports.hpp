@@ -10,6 +10,7 @@
 
 /// \file The last passes of a batch with results that stay on the device. They are graphs of their
 /// own because what they write belongs to the batch and not to the compiled graph of a tile batch.
+/// Each also writes the output's header (HeaderData), behind which the passes keep their blocks.
 /// A pass that is dispatched for each of several runs of what it reads is given resources for each.
 
 namespace nearfield::passes {
@@ -39,6 +40,7 @@ struct ExportField {
     graph::Handle tables;
     graph::Handle signed_distance;
     graph::Handle feature;
+    graph::Handle header;
 };
 
 /// The records of what PairSearch has found in one direction of a query: count, place, write. It
@@ -58,7 +60,7 @@ struct ExportRecords {
     graph::RecordedGraph<Input> graph;
     graph::Handle shapes;
     graph::Handle scratch;
-    graph::Handle blocks;
+    graph::Handle header;
     graph::Handle records;  ///< with their summary
 };
 
@@ -78,27 +80,8 @@ struct ExportSamples {
     graph::Handle summaries;  ///< as written by the tile batches
     graph::Handle masks;      ///< with the edges of cells
     graph::Handle tables;
-    graph::Handle blocks;
+    graph::Handle header;
     graph::Handle samples;  ///< with their summary
-};
-
-/// After all these, the header of each output (HeaderData).
-struct ExportHeaders {
-    ExportHeaders(const gpu::Device& device, const graph::ComputeLayout& layout);
-
-    struct Input {
-        std::span<const plan::ExportHeaderPush> headers;
-        std::span<const graph::BoundResources> resources;  ///< by header
-    };
-    /// The uses of the buffer of headers, if the host uses buffers of its own after the batch in
-    /// these stages: they wait for this pass, which reads the summaries there.
-    [[nodiscard]] static graph::ExternalUses uses(VkPipelineStageFlags readers);
-
-    ComputeShader shader;
-    graph::RecordedGraph<Input> graph;
-    graph::Handle summary;
-    /// The buffer of all headers, and of most summaries; its second part is the header to write.
-    graph::Handle headers;
 };
 
 }  // namespace nearfield::passes

@@ -27,6 +27,9 @@ struct RecordBlockData {
 };
 NEARFIELD_CHECK(sizeof(RecordBlockData) == 16)
 
+// Of an output's header, before what the passes keep.
+const uint bytes_of_header = 80u;
+
 // Replaces the word of something that does not exist.
 const uint no_word = 0xffffffffu;
 

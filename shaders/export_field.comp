@@ -2,14 +2,20 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Copies the resolved cells of a field tile to the resident images: the signed distance in world
-// units and, where it is asked for, the nearest feature as an id.
+// units and, where it is asked for, the nearest feature as an id. The thread of the field's first cell
+// also writes its header.
 
 #include "export.glsl"
+#include "header.glsl"
 
 layout(local_size_x = field_group_side, local_size_y = field_group_side) in;
 
 layout(set = 0, binding = 6, r32f) writeonly uniform image2D signed_distance;
 layout(set = 0, binding = 7, r32ui) writeonly uniform uimage2D feature_id;
+
+layout(std430, set = 0, binding = 3) writeonly buffer Header {
+    NearfieldHeader header;
+};
 
 layout(push_constant) uniform Push { ExportFieldPush push; };
 
@@ -32,6 +38,9 @@ void main() {
     }
     uint offset = cell.y * push.stride + cell.x;
     ivec2 texel = ivec2(push.column, push.row) + ivec2(cell);
+    if (texel == ivec2(0)) {
+        header = header_of_field(uvec2(push.field_width, push.field_height), push.origin, push.cell);
+    }
     float value = uintBitsToFloat(words[push.value + offset]);
     imageStore(signed_distance, texel, vec4(value * push.cell));
     if (push.feature != not_asked) {

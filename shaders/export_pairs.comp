@@ -7,14 +7,19 @@
 #include "nearfield/nearfield.glsl"
 #include "push.h"
 #include "pairs.h"
+#include "header.glsl"
 
 layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 0) readonly buffer Instances {
     uvec4 instances[];
 };
+struct Header {
+    NearfieldHeader header;
+    uint unused[words_between_headers - 20u];
+};
 layout(std430, set = 0, binding = 1) writeonly buffer Headers {
-    uint headers[];  // two NearfieldHeader, words_between_headers apart
+    Header headers[2];  // of pairs and records
 };
 layout(std430, set = 0, binding = 2) readonly buffer Rows {
     uvec4 rows[];  // in place of the first one: totals (pairs.h)
@@ -27,17 +32,6 @@ layout(push_constant) uniform Push { ExportPairsPush push; };
 
 uvec4 instance_unit(uint number, uint i) {
     return instances[units_of_query + units_of_instance * number + i];
-}
-
-void write_header(uint word, uint count, uint overflow) {
-    uint[18] header = uint[18](
-        count, 1u, 0u, 0u,  // points
-        6u, count, 0u, 0u,  // quads
-        (count + group_size - 1u) / group_size, 1u, 1u,  // groups
-        count, floatBitsToUint(push.origin.x), floatBitsToUint(push.origin.y), 0u, overflow, 0u, 0u);
-    for (uint i = 0u; i < 18u; ++i) {
-        headers[word + i] = header[i];
-    }
 }
 
 // `before`: the rows and records of the parts before.
@@ -68,7 +62,8 @@ void main() {
         write_pair(row, before.xy);
     }
     if (row == 0u) {
-        write_header(0u, before.x + totals.x, before.z | totals.z);
-        write_header(words_between_headers, before.y + totals.y, before.z | totals.z);
+        bool overflows = (before.z | totals.z) != 0u;
+        headers[0].header = header_of(before.x + totals.x, push.origin, 0.0, overflows);
+        headers[1].header = header_of(before.y + totals.y, push.origin, 0.0, overflows);
     }
 }

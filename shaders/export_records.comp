@@ -3,15 +3,16 @@
 
 // Writes the records of the points that a search has found for a query, or for one direction of it,
 // packed, in the order of the points, in three steps: one thread per block of points counts its
-// records; one thread computes the prefix sums of the counts, which give each block's position; one
-// thread per point writes its record, if it is one. No thread waits for another, and the output is
-// deterministic.
+// records; one thread computes the prefix sums of the counts, which give each block's position, and
+// writes summary and header; one thread per point writes its record, if it is one. No thread waits for
+// another, and the output is deterministic.
 
 #include "nearfield/nearfield.glsl"
 #include "search.glsl"
 #include "export.h"
 #include "found_points.glsl"
 #include "exported.glsl"
+#include "header.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -20,6 +21,7 @@ layout(std430, set = 0, binding = 2) buffer Records {
     NearfieldPoint records[];
 };
 layout(std430, set = 0, binding = 3) buffer Blocks {
+    NearfieldHeader header;
     RecordBlockData blocks[];
 };
 
@@ -87,6 +89,8 @@ void place_blocks(uint count) {
     }
     all.depth = all.deepest == nearfield_no_point ? 0.0 : depth;
     summary = all;
+    header = header_of(min(all.count, all.capacity), push.origin, push.cell,
+                       all.count > all.capacity);
 }
 
 void write_record(uint block, uint begin, uint point) {

@@ -3,10 +3,11 @@
 
 // Writes the summary and the samples of an intersection from the masks of its tiles, ordered by
 // region, row and column, in three steps: one thread per row of a tile counts, one thread computes
-// prefix sums, one thread per row writes its samples. Boxes and counts of whole tiles come from the
+// prefix sums and writes summary and header, one thread per row writes its samples. Boxes and counts of whole tiles come from the
 // summaries that the host reads too.
 
 #include "export.glsl"
+#include "header.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -15,6 +16,7 @@ layout(std430, set = 0, binding = 2) writeonly buffer Samples {
     NearfieldIntersectionSample samples[];
 };
 layout(std430, set = 0, binding = 3) buffer Blocks {
+    NearfieldHeader header;
     uint blocks[];  // per tile the count and both corners, then per row the count of samples
 };
 
@@ -90,6 +92,8 @@ void place_rows() {
     }
     all.area = float(all.count) * push.cell * push.cell;
     summary = all;
+    header = header_of(min(all.count, all.capacity), push.origin, push.cell,
+                       all.count > all.capacity);
     uint before = 0u;
     uint first_row = words_of_box * push.tile_count;
     for (uint i = 0u; i < push.block_count; ++i) {

@@ -123,6 +123,8 @@ struct SearchPush {
     // Of records that stay: B's frame in the world, a unit of its x axis and its centre
     vec2 frame_axis;
     vec2 frame_place;
+    vec2 origin;  // of their positions, and the side of a cell: for the header
+    float cell;
 };
 const uint search_packs_all = 1u;  // the host reads all points that were found
 const uint search_crosses = 2u;    // the edges of pairs of contacts also cross each other
@@ -171,13 +173,9 @@ struct ExportFieldPush {
     uint rings;  // of B in the tables: the first edge of each, then the number of all edges
     uint ring_count;
     float cell;
-};
-
-struct ExportHeaderPush {
-    vec2 origin;
-    float cell;
-    uint width NEARFIELD_DEFAULT(0);  // of a field, in cells; otherwise 0
-    uint height NEARFIELD_DEFAULT(0);
+    vec2 origin;        // low corner of the field's first cell
+    uint field_width;   // cells of the whole field
+    uint field_height;
 };
 
 struct ExportSamplesPush {
@@ -188,6 +186,7 @@ struct ExportSamplesPush {
     uint block_count;  // of all rows; 0 if samples are omitted
     uint capacity;
     float cell;
+    vec2 origin;
 };
 
 NEARFIELD_SHARED_END

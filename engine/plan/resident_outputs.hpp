@@ -13,6 +13,11 @@ namespace nearfield::plan {
 
 /// The outputs of a batch that stay on the device, in the form that the export passes take.
 
+/// For shaders.
+[[nodiscard]] inline vec2 rounded(const geometry::Vector& vector) {
+    return {static_cast<float>(vector.x()), static_cast<float>(vector.y())};
+}
+
 /// The cells of one tile in the field words of a tile batch.
 struct FieldPartOutput {
     std::uint32_t tile_batch = 0;

@@ -6,11 +6,7 @@
 namespace nearfield::render {
 
 ExportPipelines::ExportPipelines(const gpu::Device& device, const graph::ComputeLayout& layout)
-    : copy_back(device),
-      field(device, layout),
-      records(device, layout),
-      samples(device, layout),
-      headers(device, layout) {}
+    : copy_back(device), field(device, layout), records(device, layout), samples(device, layout) {}
 
 const passes::PairSearch& PipelineSet::pair_search(const plan::PairSearchKind& kind) const {
     const auto found =

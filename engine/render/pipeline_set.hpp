@@ -25,7 +25,6 @@ struct ExportPipelines {
     passes::ExportField field;
     passes::ExportRecords records;
     passes::ExportSamples samples;
-    passes::ExportHeaders headers;
 };
 
 /// All passes with their pipelines. A function makes what it returns, unless that has been made,

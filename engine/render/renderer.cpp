@@ -188,9 +188,6 @@ std::string Renderer::print(GraphFormat format) const {
     if (last_had_samples_) {
         add(passes_.exports().samples.graph, "resident samples");
     }
-    if (last_had_fields_ || last_had_records_ || last_had_samples_) {
-        add(passes_.exports().headers.graph, "resident headers");
-    }
     return text;
 }
 

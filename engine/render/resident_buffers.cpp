@@ -26,6 +26,8 @@ std::uint64_t own_bytes(const Output& output, std::uint64_t bytes) {
     return output.target.buffer == VK_NULL_HANDLE ? bytes : 0;
 }
 
+static_assert(sizeof(HeaderData) <= plan::bytes_of_header);
+
 /// The directions of a query take turns.
 std::uint64_t bytes_of_blocks(std::span<const plan::RecordRunOutput> runs) {
     std::uint32_t most = 0;
@@ -153,9 +155,8 @@ void ResidentBuffers::move_places() {
     };
     for (std::vector<Place>* const places : {&field_places_, &places_, &sample_places_}) {
         for (Place& each : *places) {
-            each.header = place(sizeof(HeaderData));
             each.records = place(each.record_bytes);
-            each.blocks = place(std::max(each.block_bytes, smallest_part));
+            each.header = place(plan::bytes_of_header + each.block_bytes);
         }
     }
     records_.reserve(end);
@@ -186,8 +187,6 @@ void ResidentBuffers::make_resources(const ExportPipelines& passes) {
         reserve(bound_samples_[i], std::max(resident_->samples[i].run_count, 1U),
                 passes.samples.graph, *layout_);
     }
-    reserve(bound_headers_, fields + resident_->records.size() + samples, passes.headers.graph,
-            *layout_);
 }
 
 gpu::BufferPart ResidentBuffers::own_range(const Place& place, std::uint64_t bytes) const {
@@ -204,44 +203,10 @@ gpu::BufferPart ResidentBuffers::range_of(std::size_t i, const plan::SamplesOutp
     return range_of_target(samples.target, own_range(sample_places_[i], bytes_of_samples(samples)));
 }
 
-void ResidentBuffers::bind_headers(const passes::ExportHeaders& pass,
-                                   graph::DescriptorUpdates& updates) {
-    headers_.clear();
-    const graph::ExternalUses uses = passes::ExportHeaders::uses(readers_of_targets(*resident_));
-    const auto add = [&](const geometry::Vector& origin, double cell, const Place& place,
-                         gpu::BufferPart summary) -> plan::ExportHeaderPush& {
-        graph::BoundResources& resources = bound_headers_[headers_.size()];
-        summary.bytes = smallest_part;
-        resources.set(pass.summary, summary);
-        resources.set(pass.headers, records_.part(0, records_.capacity()), uses);
-        resources.set(pass.headers, records_.part(place.header, sizeof(HeaderData)), 1);
-        updates.add(resources);
-        return headers_.emplace_back(
-            plan::ExportHeaderPush{{static_cast<float>(origin.x()), static_cast<float>(origin.y())},
-                                   static_cast<float>(cell)});
-    };
-    for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
-        const plan::FieldOutputs& field = resident_->fields[i];
-        const gpu::BufferPart unread = records_.part(field_places_[i].blocks, smallest_part);
-        auto& header = add(field.origin, field.cell, field_places_[i], unread);
-        header.width = field.width;
-        header.height = field.height;
-    }
-    for (std::size_t i = 0; i < resident_->records.size(); ++i) {
-        const plan::RecordsOutput& records = resident_->records[i];
-        add(records.origin, records.cell, places_[i], range_of(i, records));
-    }
-    for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
-        const plan::SamplesOutput& samples = resident_->samples[i];
-        add(samples.origin, samples.cell, sample_places_[i], range_of(i, samples));
-    }
-}
-
 void ResidentBuffers::bind(std::span<const Words> words, const gpu::BufferPart& none,
                            const ExportPipelines& passes, graph::DescriptorUpdates& updates) {
     bind_fields(words, passes.field, updates);
     bind_samples(words, none, passes.samples, updates);
-    bind_headers(passes.headers, updates);
 }
 
 void ResidentBuffers::bind_fields(std::span<const Words> words, const passes::ExportField& pass,
@@ -260,6 +225,7 @@ void ResidentBuffers::bind_fields(std::span<const Words> words, const passes::Ex
             resources.set(pass.feature,
                           imported_image(field.target.feature, images_[i].feature.handle(),
                                          views_[i].feature, revision_));
+            resources.set(pass.header, header_part(field_places_[i]));
             updates.add(resources);
         }
     }
@@ -276,7 +242,7 @@ void ResidentBuffers::bind_records(const gpu::BufferPart& shapes, const gpu::Buf
             graph::BoundResources& resources = bound_records_[records.first_run + run];
             resources.set(passes.shapes, shapes);
             resources.set(passes.scratch, scratch);
-            resources.set(passes.blocks, records_.part(places_[i].blocks, places_[i].block_bytes));
+            resources.set(passes.header, header_part(places_[i]));
             resources.set(passes.records, range, uses);
             updates.add(resources);
             if (uses) {
@@ -299,8 +265,7 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::Buff
             resources.set(passes.summaries, summaries);
             resources.set(passes.masks, samples.block_count > 0 ? masks : none);
             resources.set(passes.tables, tables());
-            resources.set(passes.blocks,
-                          records_.part(sample_places_[i].blocks, sample_places_[i].block_bytes));
+            resources.set(passes.header, header_part(sample_places_[i]));
             resources.set(passes.samples, range, uses_of(samples.target));
             updates.add(resources);
         };
@@ -317,8 +282,7 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::Buff
 std::size_t ResidentBuffers::count_passes(const ExportPipelines& passes) const {
     return resident_->fields.size() * passes.field.graph.passes().size() +
            resident_->record_runs.size() * passes.records.graph.passes().size() +
-           resident_->samples.size() * passes.samples.graph.passes().size() +
-           passes.headers.graph.passes().size();
+           resident_->samples.size() * passes.samples.graph.passes().size();
 }
 
 void ResidentBuffers::record_records(const plan::SearchPush& part,
@@ -336,6 +300,8 @@ void ResidentBuffers::record_records(const plan::SearchPush& part,
             input.push.capacity = records.capacity;
             input.push.frame_axis = run.frame_axis;
             input.push.frame_place = run.frame_place;
+            input.push.origin = plan::rounded(records.origin);
+            input.push.cell = static_cast<float>(records.cell);
             passes.graph.execute(commands, timestamps, bound_records_[i], input);
         }
     }
@@ -361,7 +327,6 @@ void ResidentBuffers::record(const ExportPipelines& passes, VkCommandBuffer comm
                     std::span(resident_->sample_runs).subspan(samples.first_run, samples.run_count),
                     resident_->sample_tiles, bound_samples_[i]});
     }
-    execute(passes.headers.graph, passes::ExportHeaders::Input{headers_, bound_headers_});
 }
 
 }  // namespace nearfield::render

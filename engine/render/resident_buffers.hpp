@@ -72,9 +72,8 @@ private:
     /// Where an output lies in the buffer: its header, and what the device writes beside it. A
     /// field has a header alone.
     struct Place {
-        std::uint64_t header = 0;
-        std::uint64_t records = 0;  ///< the summary, followed by records or samples
-        std::uint64_t blocks = 0;
+        std::uint64_t header = 0;        ///< followed by blocks
+        std::uint64_t records = 0;       ///< the summary, followed by records or samples
         std::uint64_t record_bytes = 0;  ///< reserved
         std::uint64_t block_bytes = 0;   ///< reserved
     };
@@ -94,7 +93,9 @@ private:
     /// Makes the place of an output as large as it has to be.
     void grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
               std::uint64_t blocks);
-    void bind_headers(const passes::ExportHeaders& pass, graph::DescriptorUpdates& updates);
+    [[nodiscard]] gpu::BufferPart header_part(const Place& place) const {
+        return records_.part(place.header, plan::bytes_of_header + place.block_bytes);
+    }
     [[nodiscard]] HeaderOnDevice header_at(const Place& place) const {
         return {records_.handle(), place.header};
     }
@@ -121,17 +122,15 @@ private:
     std::vector<Views> views_;    // by field; of the images written
     // What was reserved stays, so that handles and offsets do: a batch uses the first ones of each.
     std::vector<Place> field_places_;
-    std::vector<Place> places_;                    // by records
-    std::vector<Place> sample_places_;             // by samples
-    bool are_laid_out_ = false;                    // all places, and there is memory for them
-    std::uint64_t revision_ = 0;                   // see OutputSlot
-    std::vector<plan::ExportHeaderPush> headers_;  // of fields, records, samples
+    std::vector<Place> places_;         // by records
+    std::vector<Place> sample_places_;  // by samples
+    bool are_laid_out_ = false;         // all places, and there is memory for them
+    std::uint64_t revision_ = 0;        // see OutputSlot
     // What passes bind, and more of it that an earlier batch had.
     using Bound = std::vector<graph::BoundResources>;
     std::vector<Bound> bound_fields_;   // by field and part
     Bound bound_records_;               // by run
     std::vector<Bound> bound_samples_;  // by samples and run, at least one
-    Bound bound_headers_;               // by header
 };
 
 }  // namespace nearfield::render

@@ -1,5 +1,4 @@
 #include <engine/base/unique_numbers.hpp>
-#include <engine/graph/access.hpp>
 #include <engine/render/resident_targets.hpp>
 
 namespace nearfield::render {
@@ -7,17 +6,6 @@ namespace {
 
 graph::ExternalUse use_of(const TargetState& state) {
     return {state.stages, state.access, state.layout};
-}
-
-template <class Output>
-VkPipelineStageFlags readers_of(const std::vector<Output>& outputs) {
-    VkPipelineStageFlags stages = 0;
-    for (const Output& output : outputs) {
-        if (output.target.buffer != VK_NULL_HANDLE) {
-            stages |= output.target.after.stages;
-        }
-    }
-    return stages;
 }
 
 }  // namespace
@@ -45,15 +33,7 @@ std::optional<graph::ExternalUses> uses_of(const BufferTarget& target) {
     if (target.buffer == VK_NULL_HANDLE) {
         return std::nullopt;
     }
-    graph::ExternalUses uses{use_of(target.before), use_of(target.after)};
-    const graph::AccessTraits& read = graph::traits(graph::Access::storage_read_in_compute);
-    uses.after.stages |= read.stages;
-    uses.after.access |= read.access();
-    return uses;
-}
-
-VkPipelineStageFlags readers_of_targets(const plan::ResidentOutputs& resident) {
-    return readers_of(resident.records) | readers_of(resident.samples);
+    return graph::ExternalUses{use_of(target.before), use_of(target.after)};
 }
 
 }  // namespace nearfield::render

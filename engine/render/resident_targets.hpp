@@ -2,7 +2,6 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/graph/execute.hpp>
-#include <engine/plan/resident_outputs.hpp>
 #include <nearfield/on_device.hpp>
 
 #include <optional>
@@ -18,10 +17,7 @@ namespace nearfield::render {
 /// Where records or samples lie: in the host's buffer, or else in `own`.
 [[nodiscard]] gpu::BufferPart range_of_target(const BufferTarget& target,
                                               const gpu::BufferPart& own);
-/// The host's uses of its buffer. The pass that writes the headers reads it, too.
+/// The host's uses of its buffer.
 [[nodiscard]] std::optional<graph::ExternalUses> uses_of(const BufferTarget& target);
-
-/// The stages in which the host uses its buffers after the batch.
-[[nodiscard]] VkPipelineStageFlags readers_of_targets(const plan::ResidentOutputs& resident);
 
 }  // namespace nearfield::render

@@ -16,7 +16,6 @@ using geometry::Vector;
 using plan::PlannedQuery;
 using plan::RecordsOutput;
 using plan::ResidentOutputs;
-using plan::vec2;
 
 template <class Query>
 const BufferTarget* target_of(const Query& query) {
@@ -33,10 +32,6 @@ double error_of_records(const TransformedPolygon& a, const TransformedPolygon& b
         a.polygon().radius() + b.polygon().radius() + (a.translation() - b.translation()).norm();
     return std::ldexp(extent, -18) + 4.0 * (localize::placement_rounding(a, a.box()) +
                                             localize::placement_rounding(b, b.box()));
-}
-
-vec2 rounded(const Vector& vector) {
-    return {static_cast<float>(vector.x()), static_cast<float>(vector.y())};
 }
 
 /// Appends the rings of a polygon to the tables; returns where.
@@ -143,6 +138,9 @@ void ResidentOutputsBuilder::add_field(const PlannedQuery& planned, std::uint32_
         cells.rings = rings;
         cells.ring_count = planned.b->ring_count();
         cells.cell = static_cast<float>(result.cell);
+        cells.origin = plan::rounded(field.origin);
+        cells.field_width = field.width;
+        cells.field_height = field.height;
     }
     field.part_count = static_cast<std::uint32_t>(resident.field_parts.size()) - field.first_part;
 }
@@ -169,8 +167,8 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan, std::uint32_t q
         run.direction = searched_;
         run.blocks = blocks_of(plan.queries[direction], max_points);
         run.flags = records.run_count == 0 ? 0 : point_flags::on_b;
-        run.frame_axis = rounded(plan::unit_length_of(in.polygon()) * in.rotation().col(0));
-        run.frame_place = rounded(in.translation() - records.origin);
+        run.frame_axis = plan::rounded(plan::unit_length_of(in.polygon()) * in.rotation().col(0));
+        run.frame_place = plan::rounded(in.translation() - records.origin);
         records.max_capacity += static_cast<std::uint32_t>(std::ceil(max_points));
         ++records.run_count;
     };
