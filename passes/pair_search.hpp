@@ -4,7 +4,6 @@
 #include <engine/graph/compute_layout.hpp>
 #include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/pair_question.hpp>
-#include <nearfield/diagnostics.hpp>
 #include <passes/compute_shader.hpp>
 
 #include <shaders/pairs.h>
@@ -16,7 +15,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
-#include <string>
 
 namespace nearfield::passes {
 
@@ -110,11 +108,6 @@ public:
     /// Once, before the parts, with the push constants of any part; null if the pairs are given.
     [[nodiscard]] const Passes* boxes() const { return boxes_ ? &*boxes_ : nullptr; }
     [[nodiscard]] const Passes& part() const { return part_; }
-
-    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
-        return (boxes_ ? boxes_->graph.print(format, "boxes of pairs") : "") +
-               part_.graph.print(format, title);
-    }
 
 private:
     /// One thread per element that a stage has counted, or, without a stage, per instance.

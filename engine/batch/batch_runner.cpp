@@ -151,9 +151,8 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
         const render::SampleRoom room = submissions == plan::Submissions::one
                                             ? render::SampleRoom::all
                                             : render::SampleRoom::likely;
-        renderer_->prepare(resident_, room, *slot_, timings);
-        renderer_->prepare_search(planning_->planner.search_shapes(), plan_.pairs, room, *slot_,
-                                  timings);
+        renderer_->prepare(resident_, planning_->planner.search_shapes(), plan_.pairs, room, *slot_,
+                           timings);
         laps.next();
     }
 }

@@ -47,37 +47,39 @@ std::unique_ptr<WorldQueryBuffers> Renderer::make_world_query_buffers(
                                                question, timestamps_);
 }
 
-void Renderer::prepare(const plan::ResidentOutputs& resident, SampleRoom room, BatchResources& slot,
+void Renderer::prepare(const plan::ResidentOutputs& resident, const plan::SearchShapes& shapes,
+                       const plan::GivenPairs& pairs, SampleRoom room, BatchResources& slot,
                        Timings& timings) {
     const Stopwatch start;
     const double made = pipeline_milliseconds();
-    last_had_fields_ = !resident.fields.empty();
-    last_had_records_ = !resident.records.empty();
-    last_had_samples_ = !resident.samples.empty();
-    last_pairs_.reset();
-    last_question_.reset();
+    forget_last_graphs();
     slot.prepare(resident, room);
     slot.lay_out_output();
+    if (!pairs.directions.empty()) {
+        // What stays on the device is not written again with more room.
+        upload_search(shapes, pairs, resident.records.empty() ? room : SampleRoom::all, slot);
+        note_search(passes_.pair_search(plan::given_pairs), "search for points");
+    }
+    if (!resident.fields.empty()) {
+        last_graphs_.push_back({&passes_.exports().field.graph, "resident fields"});
+    }
+    if (!resident.records.empty()) {
+        last_graphs_.push_back({&passes_.exports().records.graph, "resident records"});
+    }
+    if (!resident.samples.empty()) {
+        last_graphs_.push_back({&passes_.exports().samples.graph, "resident samples"});
+    }
     timings.plan += start.milliseconds() - (pipeline_milliseconds() - made);
 }
 
-void Renderer::prepare_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
-                              SampleRoom room, BatchResources& slot, Timings& timings) {
-    const Stopwatch start;
-    const double made = pipeline_milliseconds();
-    last_had_search_ = !pairs.directions.empty();
-    if (last_had_search_) {
-        // What stays on the device is not written again with more room.
-        room = last_had_records_ ? SampleRoom::all : room;
-        PairCounts expected{};
-        for (std::size_t i = 0; i < expected.size(); ++i) {
-            expected[i] =
-                room == SampleRoom::all ? UINT32_MAX : std::max(min_expected, max_counts_[i]);
-        }
-        expected[plan::row_total] = UINT32_MAX;  // of all pairs
-        slot.upload_search(shapes, pairs, expected);
+void Renderer::upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+                             SampleRoom room, BatchResources& slot) {
+    PairCounts expected{};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        expected[i] = room == SampleRoom::all ? UINT32_MAX : std::max(min_expected, max_counts_[i]);
     }
-    timings.plan += start.milliseconds() - (pipeline_milliseconds() - made);
+    expected[plan::row_total] = UINT32_MAX;  // of all pairs
+    slot.upload_search(shapes, pairs, expected);
 }
 
 void Renderer::submit(BatchResources& slot, const Submission& order, Timings& timings) {
@@ -153,40 +155,42 @@ void Renderer::wait(BatchResources& slot, Timings& timings) {
     }
 }
 
-std::string Renderer::print(GraphFormat format) const {
-    std::string text;
-    const auto add = [&](const auto& graph, const char* title) {
-        text += graph.print(format, title);
-    };
-    if (last_question_) {
-        add(passes_.world_queries(*last_question_).graph, "questions about a world");
-        return text;
-    }
-    if (last_pairs_) {
-        if (last_pairs_->takes_poses) {
-            add(pair_poses().graph, "poses of pairs");
-        }
-        add(passes_.pair_search(last_pairs_->kind), "pairs");
-        if (last_pairs_->is_resident) {
-            add(export_pairs().graph, "resident pairs");
-        }
-        return text;
-    }
+void Renderer::forget_last_graphs() {
+    last_graphs_.clear();
     if (drawn_ != nullptr) {
-        add(*drawn_, "tiles");
+        drawn_->set_last_graph(nullptr);
     }
-    add(computed_, "computed tiles");
-    if (last_had_search_) {
-        add(passes_.pair_search(plan::given_pairs), "search for points");
+    computed_.set_last_graph(nullptr);
+}
+
+void Renderer::note_search(const passes::PairSearch& search, const char* title) {
+    if (search.boxes() != nullptr) {
+        last_graphs_.push_back({&search.boxes()->graph, "boxes of pairs"});
     }
-    if (last_had_fields_) {
-        add(passes_.exports().field.graph, "resident fields");
+    last_graphs_.push_back({&search.part().graph, title});
+}
+
+void Renderer::note_pairs(const plan::PairSearchKind& kind, bool takes_poses, bool is_resident) {
+    forget_last_graphs();
+    if (takes_poses) {
+        last_graphs_.push_back({&pair_poses().graph, "poses of pairs"});
     }
-    if (last_had_records_) {
-        add(passes_.exports().records.graph, "resident records");
+    note_search(passes_.pair_search(kind), "pairs");
+    if (is_resident) {
+        last_graphs_.push_back({&export_pairs().graph, "resident pairs"});
     }
-    if (last_had_samples_) {
-        add(passes_.exports().samples.graph, "resident samples");
+}
+
+void Renderer::note_world_queries(plan::WorldQuestion question) {
+    forget_last_graphs();
+    last_graphs_.push_back({&passes_.world_queries(question).graph, "questions about a world"});
+}
+
+std::string Renderer::print(GraphFormat format) const {
+    std::string text = drawn_ == nullptr ? "" : drawn_->print(format, "tiles");
+    text += computed_.print(format, "computed tiles");
+    for (const TitledGraph& last : last_graphs_) {
+        text += last.graph->print(format, last.title);
     }
     return text;
 }

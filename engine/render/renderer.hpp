@@ -56,17 +56,11 @@ public:
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return passes_.pair_poses(); }
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return passes_.export_pairs(); }
     /// Says that such a search is recorded, for print().
-    void note_pairs(const plan::PairSearchKind& kind, bool takes_poses, bool is_resident) {
-        last_question_.reset();
-        last_pairs_ = {kind, takes_poses, is_resident};
-    }
+    void note_pairs(const plan::PairSearchKind& kind, bool takes_poses, bool is_resident);
     /// Memory for many questions about a world, likewise; and says that they are recorded.
     [[nodiscard]] std::unique_ptr<WorldQueryBuffers> make_world_query_buffers(
         plan::WorldQuestion question);
-    void note_world_queries(plan::WorldQuestion question) {
-        last_pairs_.reset();
-        last_question_ = question;
-    }
+    void note_world_queries(plan::WorldQuestion question);
     /// The time that making pipelines has taken, which is in no other time.
     [[nodiscard]] double pipeline_milliseconds() const {
         return passes_.milliseconds() + (drawn_ == nullptr ? 0.0 : drawn_->pipeline_milliseconds());
@@ -83,13 +77,11 @@ public:
 
     /// Uploads the tile batches of a slot and their resident outputs, and reserves memory for their
     /// results; adds to the time of planning. All of it has to stay unchanged, and `slot`
-    /// untouched, until the device is done.
-    void prepare(const plan::ResidentOutputs& resident, SampleRoom room, BatchResources& slot,
+    /// untouched, until the device is done. Also uploads the pairs that are searched, if any, of
+    /// which nothing is needed afterwards. `shapes`: those that they name.
+    void prepare(const plan::ResidentOutputs& resident, const plan::SearchShapes& shapes,
+                 const plan::GivenPairs& pairs, SampleRoom room, BatchResources& slot,
                  Timings& timings);
-    /// Uploads the pairs that are searched, if any, after prepare(); nothing of them is needed
-    /// afterwards. `shapes`: those that they name.
-    void prepare_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
-                        SampleRoom room, BatchResources& slot, Timings& timings);
     /// Records the prepared tile batches and submits them; adds to the time of recording.
     void submit(BatchResources& slot, const Submission& order, Timings& timings);
     /// Records the prepared tile batches into a command buffer of the host, followed by a stamp
@@ -113,6 +105,10 @@ public:
 
 private:
     void record(BatchResources& slot, VkCommandBuffer commands);
+    void forget_last_graphs();
+    void note_search(const passes::PairSearch& search, const char* title);
+    void upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+                       SampleRoom room, BatchResources& slot);
     void record_search(const GivenSearch& search, BatchResources& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;
@@ -122,17 +118,11 @@ private:
     PipelineSet passes_;
     std::unique_ptr<TileTechnique> drawn_;  // null: there is none
     ComputeTechnique computed_;
-    bool last_had_fields_ = false;  // among the resident outputs of the last batch
-    bool last_had_records_ = false;
-    bool last_had_samples_ = false;
-    bool last_had_search_ = false;
-    struct Pairs {
-        plan::PairSearchKind kind;
-        bool takes_poses;
-        bool is_resident;
+    struct TitledGraph {
+        const graph::CompiledGraph* graph;
+        const char* title;
     };
-    std::optional<Pairs> last_pairs_;  // since the last batch, as is the next
-    std::optional<plan::WorldQuestion> last_question_;
+    std::vector<TitledGraph> last_graphs_;  // for print(), beside those of tiles
     static constexpr std::uint32_t min_records = 16384;
     std::uint32_t expected_records_ = min_records;
     PairCounts max_counts_{};  // by a search of a batch, reserved for the next
