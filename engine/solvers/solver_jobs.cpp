@@ -37,7 +37,7 @@ std::size_t weight_of(const CheckedQuery& query) {
 }  // namespace
 
 SolverJobs::SolverJobs(const plan::PlanLimits& limits, const JobSystem& jobs)
-    : limits_(plan::with_affordable_atlas(limits)), jobs_(jobs) {
+    : limits_(limits), jobs_(jobs) {
     for (std::uint32_t i = 0; i < jobs_.count(); ++i) {
         solvers_.push_back(std::make_unique<Solvers>(limits_));
     }
