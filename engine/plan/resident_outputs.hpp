@@ -47,17 +47,23 @@ struct RecordRunOutput {
     vec2 frame_place;
 };
 
-/// Points that are exported as records.
-struct RecordsOutput {
+/// What goes to a buffer: a summary, and records or samples behind it.
+struct BufferOutput {
     std::uint32_t query = 0;
-    std::uint32_t capacity = 0;      ///< records
-    std::uint32_t max_capacity = 0;  ///< upper bound of what there can be, at any poses
+    std::uint32_t capacity = 0;  ///< records, or cells; 0 where the samples are omitted
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
     BufferTarget target;          ///< the host's, if its handle is not null
-    std::uint32_t first_run = 0;  ///< in ResidentOutputs::record_runs
+    std::uint32_t first_run = 0;  ///< in ResidentOutputs::record_runs, or sample_runs
     std::uint32_t run_count = 0;
+    std::uint64_t bytes = 0;        ///< in the buffer
+    std::uint64_t block_bytes = 0;  ///< that the passes keep from step to step
+};
+
+/// Points that are exported as records.
+struct RecordsOutput : BufferOutput {
+    std::uint32_t max_capacity = 0;  ///< upper bound of what there can be, at any poses
 };
 
 /// Tiles of one intersection in one tile batch.
@@ -69,15 +75,7 @@ struct SampleRunOutput {
 };
 
 /// An intersection that is exported as a summary and samples.
-struct SamplesOutput {
-    std::uint32_t query = 0;
-    std::uint32_t capacity = 0;  ///< cells; 0 where the samples are omitted
-    geometry::Vector origin = geometry::Vector::Zero();
-    double cell = 0.0;
-    double error_bound = 0.0;
-    BufferTarget target;          ///< the host's, if its handle is not null
-    std::uint32_t first_run = 0;  ///< in ResidentOutputs::sample_runs
-    std::uint32_t run_count = 0;
+struct SamplesOutput : BufferOutput {
     std::uint32_t tile_count = 0;
     std::uint32_t block_count = 0;  ///< 0 where the samples are omitted
 };

@@ -1,5 +1,6 @@
 #include <engine/base/unique_numbers.hpp>
 #include <engine/gpu/buffer_parts.hpp>
+#include <engine/graph/access.hpp>
 #include <engine/render/resident_buffers.hpp>
 
 #include <algorithm>
@@ -11,36 +12,7 @@
 namespace nearfield::render {
 namespace {
 
-std::uint64_t bytes_of_records(const plan::RecordsOutput& records) {
-    return sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(PointData);
-}
-
-std::uint64_t bytes_of_samples(const plan::SamplesOutput& samples) {
-    return sizeof(IntersectionSummaryData) +
-           std::uint64_t{samples.capacity} * sizeof(IntersectionSampleData);
-}
-
-/// What has to be reserved for records or samples: nothing where the host has given a buffer.
-template <class Output>
-std::uint64_t own_bytes(const Output& output, std::uint64_t bytes) {
-    return output.target.buffer == VK_NULL_HANDLE ? bytes : 0;
-}
-
 static_assert(sizeof(HeaderData) <= plan::bytes_of_header);
-
-/// The directions of a query take turns.
-std::uint64_t bytes_of_blocks(std::span<const plan::RecordRunOutput> runs) {
-    std::uint32_t most = 0;
-    for (const plan::RecordRunOutput& run : runs) {
-        most = std::max(most, run.blocks);
-    }
-    return std::uint64_t{most} * sizeof(plan::RecordBlockData);
-}
-
-std::uint64_t bytes_of_blocks(const plan::SamplesOutput& samples) {
-    return (std::uint64_t{samples.tile_count} * plan::words_of_box + samples.block_count) *
-           sizeof(std::uint32_t);
-}
 
 /// Makes sure that there are so many resources of a graph.
 template <class Graph>
@@ -49,6 +21,39 @@ void reserve(std::vector<graph::BoundResources>& bound, std::size_t count, const
     while (bound.size() < count) {
         bound.push_back(graph.make_resources(layout));
     }
+}
+
+graph::ExternalUse use_of(const TargetState& state) {
+    return {state.stages, state.access, state.layout};
+}
+
+/// An image for the render graph: the host's, or else the library's own. `view`: of either;
+/// `identity`: of the library's. Another image or buffer of the host's may have the handle of one
+/// that is gone, so each time counts as new.
+graph::ImportedImage imported_image(const ImageTarget& target, VkImage own, VkImageView view,
+                                    std::uint64_t identity) {
+    if (target.image == VK_NULL_HANDLE) {
+        return {.image = own, .view = view, .identity = identity};
+    }
+    return {target.image, target.level,
+            target.layer, graph::ExternalUses{use_of(target.before), use_of(target.after)},
+            view,         next_revision()};
+}
+
+/// Where records or samples lie: in the host's buffer, or else in `own`.
+gpu::BufferPart range_of_target(const BufferTarget& target, const gpu::BufferPart& own) {
+    return target.buffer == VK_NULL_HANDLE
+               ? own
+               : gpu::BufferPart{target.buffer, target.offset, own.bytes, VK_NULL_HANDLE,
+                                 next_revision()};
+}
+
+/// The host's uses of its buffer.
+std::optional<graph::ExternalUses> uses_of(const BufferTarget& target) {
+    if (target.buffer == VK_NULL_HANDLE) {
+        return std::nullopt;
+    }
+    return graph::ExternalUses{use_of(target.before), use_of(target.after)};
 }
 
 }  // namespace
@@ -125,21 +130,20 @@ void ResidentBuffers::grow(std::vector<Place>& places, std::size_t i, std::uint6
 }
 
 void ResidentBuffers::lay_out_buffer() {
+    const auto reserve = [this](const auto& outputs, const char* what, std::vector<Place>& places) {
+        for (std::size_t i = 0; i < outputs.size(); ++i) {
+            const plan::BufferOutput& output = outputs[i];
+            require_range(*device_, output.bytes, what);
+            // Nothing where the host has given a buffer.
+            grow(places, i, output.target.buffer == VK_NULL_HANDLE ? output.bytes : 0,
+                 output.block_bytes);
+        }
+    };
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
         grow(field_places_, i, 0, 0);
     }
-    for (std::size_t i = 0; i < resident_->records.size(); ++i) {
-        const plan::RecordsOutput& records = resident_->records[i];
-        require_range(*device_, bytes_of_records(records), "the records");
-        grow(places_, i, own_bytes(records, bytes_of_records(records)),
-             bytes_of_blocks(runs_of(records)));
-    }
-    for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
-        const plan::SamplesOutput& samples = resident_->samples[i];
-        require_range(*device_, bytes_of_samples(samples), "the samples that stay");
-        grow(sample_places_, i, own_bytes(samples, bytes_of_samples(samples)),
-             bytes_of_blocks(samples));
-    }
+    reserve(resident_->records, "the records", places_);
+    reserve(resident_->samples, "the samples that stay", sample_places_);
     if (!are_laid_out_) {
         move_places();
     }
@@ -189,18 +193,11 @@ void ResidentBuffers::make_resources(const ExportPipelines& passes) {
     }
 }
 
-gpu::BufferPart ResidentBuffers::own_range(const Place& place, std::uint64_t bytes) const {
-    gpu::BufferPart range = records_.part(place.records, bytes);
-    range.bytes = bytes;
-    return range;
-}
-
-gpu::BufferPart ResidentBuffers::range_of(std::size_t i, const plan::RecordsOutput& records) const {
-    return range_of_target(records.target, own_range(places_[i], bytes_of_records(records)));
-}
-
-gpu::BufferPart ResidentBuffers::range_of(std::size_t i, const plan::SamplesOutput& samples) const {
-    return range_of_target(samples.target, own_range(sample_places_[i], bytes_of_samples(samples)));
+gpu::BufferPart ResidentBuffers::range_of(const Place& place,
+                                          const plan::BufferOutput& output) const {
+    gpu::BufferPart own = records_.part(place.records, output.bytes);
+    own.bytes = output.bytes;
+    return range_of_target(output.target, own);
 }
 
 void ResidentBuffers::bind(std::span<const Words> words, const gpu::BufferPart& none,
@@ -236,7 +233,7 @@ void ResidentBuffers::bind_records(const gpu::BufferPart& shapes, const gpu::Buf
                                    graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
         const plan::RecordsOutput& records = resident_->records[i];
-        const gpu::BufferPart range = range_of(i, records);
+        const gpu::BufferPart range = range_of(places_[i], records);
         std::optional<graph::ExternalUses> uses = uses_of(records.target);
         for (std::uint32_t run = 0; run < records.run_count; ++run) {
             graph::BoundResources& resources = bound_records_[records.first_run + run];
@@ -258,7 +255,7 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::Buff
                                    graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
         const plan::SamplesOutput& samples = resident_->samples[i];
-        const gpu::BufferPart range = range_of(i, samples);
+        const gpu::BufferPart range = range_of(sample_places_[i], samples);
         const auto bind = [&](std::uint32_t run, const gpu::BufferPart& summaries,
                               const gpu::BufferPart& masks) {
             graph::BoundResources& resources = bound_samples_[i][run];
@@ -327,6 +324,78 @@ void ResidentBuffers::record(const ExportPipelines& passes, VkCommandBuffer comm
                     std::span(resident_->sample_runs).subspan(samples.first_run, samples.run_count),
                     resident_->sample_tiles, bound_samples_[i]});
     }
+}
+
+OutputState ResidentBuffers::state(graph::Access access) const {
+    const graph::AccessTraits traits = graph::traits(access, device_->queue_flags());
+    const bool exclusive = device_->reader_families().empty();
+    return {traits.stages, traits.access(), traits.layout,
+            exclusive ? device_->queue_family() : VK_QUEUE_FAMILY_IGNORED};
+}
+
+OutputState ResidentBuffers::state(const BufferTarget& target) const {
+    return target.buffer == VK_NULL_HANDLE
+               ? state(graph::Access::exported_buffer)
+               : OutputState{target.after.stages, target.after.access, VK_IMAGE_LAYOUT_UNDEFINED,
+                             device_->queue_family()};
+}
+
+FieldOnDevice ResidentBuffers::field(std::size_t i) const {
+    const plan::FieldOutputs& field = resident_->fields[i];
+    const Images& images = images_[i];
+    VkExtent2D extent{};
+    const auto image = [&](const ImageTarget& target, const gpu::KeptImage& kept,
+                           VkImageView view) {
+        if (target.image != VK_NULL_HANDLE) {
+            return ImageOnDevice{target.image, view, target.format};
+        }
+        extent = kept.extent();
+        return ImageOnDevice{kept.handle(), view, kept.format()};
+    };
+    const ImageOnDevice signed_distance =
+        image(field.target.signed_distance, images.signed_distance, views_[i].signed_distance);
+    ImageOnDevice feature;
+    if (field.has_features) {
+        feature = image(field.target.feature, images.feature, views_[i].feature);
+    }
+    return {signed_distance,
+            feature,
+            field.width,
+            field.height,
+            extent,
+            geometry::to_public(field.origin),
+            field.cell,
+            field.error_bound,
+            state(graph::Access::exported_image),
+            header_at(field_places_[i]),
+            slot()};
+}
+
+PointsOnDevice ResidentBuffers::records(std::size_t i) const {
+    const plan::RecordsOutput& records = resident_->records[i];
+    const gpu::BufferPart range = range_of(places_[i], records);
+    const std::uint64_t max_size =
+        sizeof(SummaryData) + std::uint64_t{records.max_capacity} * sizeof(PointData);
+    return {range.buffer,          range.offset,
+            range.bytes,           max_size,
+            records.capacity,      geometry::to_public(records.origin),
+            records.error_bound,   state(records.target),
+            header_at(places_[i]), slot()};
+}
+
+SamplesOnDevice ResidentBuffers::samples(std::size_t i) const {
+    const plan::SamplesOutput& samples = resident_->samples[i];
+    const gpu::BufferPart range = range_of(sample_places_[i], samples);
+    return {range.buffer,
+            range.offset,
+            range.bytes,
+            samples.capacity,
+            geometry::to_public(samples.origin),
+            samples.cell,
+            samples.error_bound,
+            state(samples.target),
+            header_at(sample_places_[i]),
+            slot()};
 }
 
 }  // namespace nearfield::render

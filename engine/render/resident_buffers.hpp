@@ -11,7 +11,6 @@
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/pipeline_set.hpp>
-#include <engine/render/resident_targets.hpp>
 #include <nearfield/on_device.hpp>
 
 #include <cstdint>
@@ -78,16 +77,11 @@ private:
         std::uint64_t block_bytes = 0;   ///< reserved
     };
 
-    [[nodiscard]] std::span<const plan::RecordRunOutput> runs_of(
-        const plan::RecordsOutput& records) const {
-        return std::span(resident_->record_runs).subspan(records.first_run, records.run_count);
-    }
     void reserve_images();
     void find_views();
     /// Where the summary of records or samples and what follows it lie.
-    [[nodiscard]] gpu::BufferPart range_of(std::size_t i, const plan::RecordsOutput& records) const;
-    [[nodiscard]] gpu::BufferPart range_of(std::size_t i, const plan::SamplesOutput& samples) const;
-    [[nodiscard]] gpu::BufferPart own_range(const Place& place, std::uint64_t bytes) const;
+    [[nodiscard]] gpu::BufferPart range_of(const Place& place,
+                                           const plan::BufferOutput& output) const;
     void lay_out_buffer();
     void move_places();
     /// Makes the place of an output as large as it has to be.

@@ -170,6 +170,9 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan, std::uint32_t q
         run.frame_axis = plan::rounded(plan::unit_length_of(in.polygon()) * in.rotation().col(0));
         run.frame_place = plan::rounded(in.translation() - records.origin);
         records.max_capacity += static_cast<std::uint32_t>(std::ceil(max_points));
+        // The directions of a query take turns.
+        records.block_bytes = std::max<std::uint64_t>(
+            records.block_bytes, std::uint64_t{run.blocks} * sizeof(plan::RecordBlockData));
         ++records.run_count;
     };
     add(query, b);
@@ -185,6 +188,7 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan, std::uint32_t q
         room = static_cast<std::uint32_t>(std::min<std::uint64_t>(fits, UINT32_MAX));
     }
     records.capacity = std::min(room, records.max_capacity);
+    records.bytes = sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(PointData);
 }
 
 }  // namespace nearfield::resident

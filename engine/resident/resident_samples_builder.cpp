@@ -119,6 +119,11 @@ void ResidentSamplesBuilder::add_tiles(const plan::Plan& plan, const Intersectio
         place_blocks(plan, {first, last}, samples);
     }
     samples.tile_count = static_cast<std::uint32_t>(last - first);
+    samples.bytes = sizeof(IntersectionSummaryData) +
+                    std::uint64_t{samples.capacity} * sizeof(IntersectionSampleData);
+    samples.block_bytes =
+        (std::uint64_t{samples.tile_count} * plan::words_of_box + samples.block_count) *
+        sizeof(std::uint32_t);
     std::sort(first, last, [](const FoundTile& i, const FoundTile& j) {
         return i.tile_batch != j.tile_batch ? i.tile_batch < j.tile_batch : i.index < j.index;
     });
