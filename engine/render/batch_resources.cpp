@@ -2,7 +2,6 @@
 #include <engine/render/batch_resources.hpp>
 
 #include <cstring>
-#include <utility>
 
 namespace nearfield::render {
 
@@ -21,9 +20,8 @@ BatchResources::BatchResources(const gpu::Device& device, const graph::ComputeLa
     if (drawn != nullptr) {
         tiles_.push_back(drawn->make_work());
     }
-    auto own = computed.make_computed();
-    computed_ = own.get();
-    tiles_.push_back(std::move(own));
+    tiles_.push_back(computed.make_work());
+    computed_ = static_cast<ComputedTiles*>(tiles_.back().get());
 }
 
 BatchResources::~BatchResources() {

@@ -24,7 +24,6 @@ namespace nearfield::render {
 /// of a batch takes the first images, and so on.
 class ResidentBuffers {
 public:
-    /// `views`: of images of the host. They must outlive this.
     ResidentBuffers(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     /// Allocates memory and uploads the tables. `resident` has to stay unchanged until the next
