@@ -13,7 +13,7 @@ namespace {
 std::array<VkBool32, 1> constants_of(const gpu::Device& device) {
     const VkPhysicalDeviceLimits& limits = device.limits();
     const bool reads_texels =
-        limits.maxTexelBufferElements >= limits.maxStorageBufferRange / plan::bytes_of_unit;
+        limits.maxTexelBufferElements >= limits.maxStorageBufferRange / shaders::bytes_of_unit;
     return {reads_texels ? VK_TRUE : VK_FALSE};
 }
 
@@ -41,13 +41,13 @@ void ComputeShader::bind(VkCommandBuffer commands, VkDescriptorSet set) const {
 
 void ComputeShader::dispatch_cells(VkCommandBuffer commands, std::uint32_t width,
                                    std::uint32_t height) const {
-    constexpr std::uint32_t side = plan::field_group_side;
+    constexpr std::uint32_t side = shaders::field_group_side;
     functions_->vkCmdDispatch(commands, (width + side - 1) / side, (height + side - 1) / side, 1);
 }
 
 void ComputeShader::dispatch_threads(VkCommandBuffer commands, std::uint64_t count) const {
     dispatch(commands,
-             static_cast<std::uint32_t>((count + plan::group_size - 1) / plan::group_size));
+             static_cast<std::uint32_t>((count + shaders::group_size - 1) / shaders::group_size));
 }
 
 void ComputeShader::dispatch(VkCommandBuffer commands, std::uint32_t groups) const {

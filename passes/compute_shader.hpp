@@ -20,7 +20,7 @@
 namespace nearfield::passes {
 
 /// Those of the largest push constants.
-inline constexpr std::uint32_t max_push_bytes = sizeof(plan::SearchPush);
+inline constexpr std::uint32_t max_push_bytes = sizeof(shaders::SearchPush);
 
 /// The parts in which passes bind the samples of intersections.
 namespace sample_parts {
@@ -57,7 +57,7 @@ public:
     template <class Push>
     void dispatch_in_parts(VkCommandBuffer commands, std::uint32_t begin, std::uint32_t end,
                            Push constants) const {
-        constexpr std::uint64_t most = std::uint64_t{plan::max_workgroups} * plan::group_size;
+        constexpr std::uint64_t most = std::uint64_t{shaders::max_workgroups} * shaders::group_size;
         for (std::uint64_t first = begin; first < end; first += most) {
             constants.first = static_cast<std::uint32_t>(first);
             push(commands, constants);
@@ -67,11 +67,11 @@ public:
     /// The same with `count` workgroups.
     template <class Push>
     void dispatch_workgroups(VkCommandBuffer commands, std::uint32_t count, Push constants) const {
-        for (std::uint64_t first = 0; first < count; first += plan::max_workgroups) {
+        for (std::uint64_t first = 0; first < count; first += shaders::max_workgroups) {
             constants.first = static_cast<std::uint32_t>(first);
             push(commands, constants);
-            dispatch(commands, static_cast<std::uint32_t>(
-                                   std::min<std::uint64_t>(count - first, plan::max_workgroups)));
+            dispatch(commands, static_cast<std::uint32_t>(std::min<std::uint64_t>(
+                                   count - first, shaders::max_workgroups)));
         }
     }
     /// Dispatches one thread per cell of a rectangle, in workgroups of field_group_side squared.

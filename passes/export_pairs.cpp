@@ -39,9 +39,9 @@ ExportPairs::ExportPairs(const gpu::Device& device, const graph::ComputeLayout& 
               {1, of_headers, write}},
              [this](const ComputeShader& shader, const graph::PassCommands& commands,
                     const Input& input) {
-                 shader.push(commands, plan::ExportPairsPush{input.origin});
+                 shader.push(commands, shaders::ExportPairsPush{input.origin});
                  shader.dispatch_indirect(commands, commands.part(arguments).buffer,
-                                          search_argument_bytes * plan::pair_total);
+                                          search_argument_bytes * shaders::pair_total);
              });
     add_pass(graph, "export pair records", record_shader,
              {{graph::unbound, arguments, Access::indirect_arguments},
@@ -52,7 +52,7 @@ ExportPairs::ExportPairs(const gpu::Device& device, const graph::ComputeLayout& 
                     const Input& input) {
                  shader.push(commands, input.search);
                  shader.dispatch_indirect(commands, commands.part(arguments).buffer,
-                                          search_argument_bytes * plan::point_total);
+                                          search_argument_bytes * shaders::point_total);
              });
     graph.compile(device);
 }

@@ -15,8 +15,8 @@ struct ExportPairs {
 
     /// What they are recorded from, beside the resources that they bind.
     struct Input {
-        plan::SearchPush search;  ///< of the part that was searched before
-        plan::vec2 origin;
+        shaders::SearchPush search;  ///< of the part that was searched before
+        shaders::vec2 origin;
     };
 
     ComputeShader row_shader;

@@ -19,7 +19,7 @@ constexpr graph::ExternalAccess after_tiles{write, {}};
 void dispatch_parts(const ComputeShader& shader, const graph::PassCommands& commands,
                     const ExportField::Input& input) {
     for (std::size_t i = 0; i < input.parts.size(); ++i) {
-        const plan::ExportFieldPush& cells = input.parts[i].cells;
+        const shaders::ExportFieldPush& cells = input.parts[i].cells;
         shader.bind_set(commands, commands.set_of(input.resources[i]));
         shader.push(commands, cells);
         shader.dispatch_cells(commands, cells.width, cells.height);
@@ -30,7 +30,7 @@ void dispatch_parts(const ComputeShader& shader, const graph::PassCommands& comm
 void dispatch_records(const ComputeShader& shader, VkCommandBuffer commands,
                       const ExportRecords::Input& input, std::uint32_t step,
                       std::uint32_t threads) {
-    plan::SearchPush push = input.push;
+    shaders::SearchPush push = input.push;
     push.stage = step;
     shader.push(commands, push);
     shader.dispatch_threads(commands, threads);
@@ -42,12 +42,13 @@ constexpr std::uint32_t with_masks = 1;
 
 /// Dispatches `threads` threads. `table`, `first_tile`, `tile_count`: as in the shader.
 void dispatch_step(const ComputeShader& shader, VkCommandBuffer commands,
-                   const plan::SamplesOutput& samples, std::uint32_t step, std::uint32_t table,
-                   std::uint32_t first_tile, std::uint32_t tile_count, std::uint32_t threads) {
+                   const device_input::SamplesOutput& samples, std::uint32_t step,
+                   std::uint32_t table, std::uint32_t first_tile, std::uint32_t tile_count,
+                   std::uint32_t threads) {
     shader.push(commands,
-                plan::ExportSamplesPush{step, table, first_tile, tile_count, samples.block_count,
-                                        samples.capacity, static_cast<float>(samples.cell),
-                                        plan::rounded(samples.origin)});
+                shaders::ExportSamplesPush{step, table, first_tile, tile_count, samples.block_count,
+                                           samples.capacity, static_cast<float>(samples.cell),
+                                           device_input::rounded(samples.origin)});
     shader.dispatch_threads(commands, threads);
 }
 
@@ -55,11 +56,11 @@ void dispatch_step(const ComputeShader& shader, VkCommandBuffer commands,
 void dispatch_rows(const ComputeShader& shader, const graph::PassCommands& commands,
                    const ExportSamples::Input& input, std::uint32_t set, std::uint32_t step) {
     for (std::size_t i = 0; input.samples->block_count > 0 && i < input.runs.size(); ++i) {
-        const plan::SampleRunOutput& run = input.runs[i];
+        const device_input::SampleRunOutput& run = input.runs[i];
         shader.bind_set(commands, commands.set_of(input.resources[i], set));
         for (std::uint32_t tile = 0; tile < run.tile_count; ++tile) {
             dispatch_step(shader, commands, *input.samples, step,
-                          run.table + tile * plan::words_of_tile, 0, input.samples->tile_count,
+                          run.table + tile * shaders::words_of_tile, 0, input.samples->tile_count,
                           input.tiles[run.first_tile + tile].height);
         }
     }
@@ -69,13 +70,13 @@ void dispatch_count(const ComputeShader& shader, const graph::PassCommands& comm
                     const ExportSamples::Input& input) {
     std::uint32_t first_tile = 0;
     for (std::size_t i = 0; i < input.runs.size(); ++i) {
-        const plan::SampleRunOutput& run = input.runs[i];
+        const device_input::SampleRunOutput& run = input.runs[i];
         shader.bind_set(commands, commands.set_of(input.resources[i], with_summaries));
-        dispatch_step(shader, commands, *input.samples, plan::box_step, run.table, first_tile,
+        dispatch_step(shader, commands, *input.samples, shaders::box_step, run.table, first_tile,
                       run.tile_count, run.tile_count);
         first_tile += run.tile_count;
     }
-    dispatch_rows(shader, commands, input, with_masks, plan::count_step);
+    dispatch_rows(shader, commands, input, with_masks, shaders::count_step);
 }
 
 }  // namespace
@@ -132,18 +133,18 @@ ExportRecords::ExportRecords(const gpu::Device& device, const graph::ComputeLayo
     add_pass(graph, "count records", shader,
              {{0, shapes}, {1, scratch}, {3, counted, write}, {2, output, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
-                 dispatch_records(of, commands, input, plan::count_step, input.blocks);
+                 dispatch_records(of, commands, input, shaders::count_step, input.blocks);
              });
     add_pass(graph, "place records", shader,
              {{0, shapes}, {1, scratch}, {3, counted, write}, {2, output, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
-                 dispatch_records(of, commands, input, plan::place_step, 1);
+                 dispatch_records(of, commands, input, shaders::place_step, 1);
              });
     add_pass(graph, "write records", shader,
              {{0, shapes}, {1, scratch}, {3, counted}, {2, output, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
-                 dispatch_records(of, commands, input, plan::write_step,
-                                  plan::points_per_block * input.blocks);
+                 dispatch_records(of, commands, input, shaders::write_step,
+                                  shaders::points_per_block * input.blocks);
              });
     graph.compile(device);
 }
@@ -168,13 +169,13 @@ ExportSamples::ExportSamples(const gpu::Device& device, const graph::ComputeLayo
              dispatch_count);
     add_pass(graph, "place samples", shader, {{3, counted, write}, {2, output, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
-                 dispatch_step(of, commands, *input.samples, plan::place_step, 0, 0,
+                 dispatch_step(of, commands, *input.samples, shaders::place_step, 0, 0,
                                input.samples->tile_count, 1);
              });
     add_pass(graph, "write samples", shader,
              {{0, masks}, {1, tables}, {3, counted}, {2, output, write}},
              [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
-                 dispatch_rows(of, commands, input, 0, plan::write_step);
+                 dispatch_rows(of, commands, input, 0, shaders::write_step);
              });
     graph.compile(device);
 }

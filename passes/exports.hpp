@@ -1,8 +1,8 @@
 #pragma once
 
+#include <engine/device_input/resident_outputs.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/graph/recorded_graph.hpp>
-#include <engine/plan/resident_outputs.hpp>
 #include <passes/compute_shader.hpp>
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct ExportField {
     ExportField(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     struct Input {
-        std::span<const plan::FieldPartOutput> parts;
+        std::span<const device_input::FieldPartOutput> parts;
         std::span<const graph::BoundResources> resources;  ///< by part
     };
 
@@ -52,7 +52,7 @@ struct ExportRecords {
     struct Input {
         /// Those of the search, with the direction in its part, the flags of the records, their
         /// capacity and the frame.
-        plan::SearchPush push;
+        shaders::SearchPush push;
         std::uint32_t blocks = 0;  ///< of points
     };
 
@@ -69,9 +69,9 @@ struct ExportSamples {
     ExportSamples(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     struct Input {
-        const plan::SamplesOutput* samples = nullptr;
-        std::span<const plan::SampleRunOutput> runs;
-        std::span<const plan::SampleTileData> tiles;       ///< of all queries
+        const device_input::SamplesOutput* samples = nullptr;
+        std::span<const device_input::SampleRunOutput> runs;
+        std::span<const shaders::SampleTileData> tiles;    ///< of all queries
         std::span<const graph::BoundResources> resources;  ///< by run, and at least one
     };
 

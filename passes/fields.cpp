@@ -20,10 +20,10 @@ using graph::Access;
 
 namespace {
 
-plan::FieldPush push_of(const RecordContext& context) {
-    const plan::ComputeWork& work = context.batch.work;
-    const plan::FieldLists lists = work.field_lists();
-    plan::FieldPush push{};
+shaders::FieldPush push_of(const RecordContext& context) {
+    const device_input::ComputeWork& work = context.batch.work;
+    const device_input::FieldLists lists = work.field_lists();
+    shaders::FieldPush push{};
     push.tiles = context.shape_units;
     push.tile_count = static_cast<std::uint32_t>(work.fields.tiles.size());
     push.regions = lists.regions;
@@ -39,7 +39,7 @@ plan::FieldPush push_of(const RecordContext& context) {
 
 void dispatch_threads_of(const ComputeShader& shader, VkCommandBuffer commands,
                          const RecordContext& context, std::uint64_t threads) {
-    plan::FieldPush push = push_of(context);
+    shaders::FieldPush push = push_of(context);
     push.end = static_cast<std::uint32_t>(threads);
     shader.dispatch_in_parts(commands, 0, push.end, push);
 }
@@ -49,7 +49,7 @@ void dispatch_threads_of(const ComputeShader& shader, VkCommandBuffer commands,
 std::vector<Fields::ListPass> Fields::make_lists(const gpu::Device& device,
                                                  const graph::ComputeLayout& layout,
                                                  bool by_groups) {
-    using plan::FieldWork;
+    using device_input::FieldWork;
     std::vector<ListPass> lists;
     const auto add = [&](const char* name, gpu::Spirv code, std::uint32_t FieldWork::*squares) {
         const std::string shader = std::string("nearfield ") + name;
@@ -115,12 +115,12 @@ void Fields::declare_cells(TileGraph& graph, Buffers buffers, const Cells& cells
                  });
     };
     if (cells.values) {
-        add_resolve("resolve blocks", values_, plan::threads_per_block);
+        add_resolve("resolve blocks", values_, shaders::threads_per_block);
     }
     if (cells.features) {
         constexpr std::uint32_t cells_per_thread = 4;
         add_resolve("resolve features", features_,
-                    plan::block_side * plan::block_side / cells_per_thread);
+                    shaders::block_side * shaders::block_side / cells_per_thread);
     }
     add_pass(
         graph, "resolve crowded blocks", crowded_,
@@ -141,10 +141,11 @@ void Fields::declare_points(TileGraph& graph, graph::Handle input, Output& outpu
         graph, "resolve field points by walks", points_,
         {{0, input}, {2, output.long_searches, write}, {3, output.field, write}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            plan::FieldPush push = push_of(context);
+            shaders::FieldPush push = push_of(context);
             const std::uint32_t first_point =
-                push.tiles + push.tile_count * plan::units_of_field_tile;  // units; one per point
-            for (const plan::FieldPointRun& run : context.batch.field_point_runs) {
+                push.tiles +
+                push.tile_count * shaders::units_of_field_tile;  // units; one per point
+            for (const device_input::FieldPointRun& run : context.batch.field_point_runs) {
                 push.points = first_point + run.first;
                 push.first_word = run.first_word;
                 push.words_per_point = run.parts.words_per_point;

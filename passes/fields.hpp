@@ -48,7 +48,7 @@ private:
     struct ListPass {
         const char* name;
         ComputeShader shader;
-        std::uint32_t plan::FieldWork::*squares;  ///< their number
+        std::uint32_t device_input::FieldWork::*squares;  ///< their number
     };
     static std::vector<ListPass> make_lists(const gpu::Device& device,
                                             const graph::ComputeLayout& layout, bool by_groups);

@@ -11,9 +11,9 @@ namespace {
 
 /// The first unit of the shapes in masks, behind the shapes, and the tiles and points of fields.
 std::uint32_t first_mask_shape(const RecordContext& context) {
-    const plan::FieldWork& fields = context.batch.work.fields;
+    const device_input::FieldWork& fields = context.batch.work.fields;
     return context.shape_units +
-           static_cast<std::uint32_t>(fields.tiles.size() * plan::units_of_field_tile +
+           static_cast<std::uint32_t>(fields.tiles.size() * shaders::units_of_field_tile +
                                       fields.points.size());
 }
 
@@ -30,7 +30,7 @@ void Masks::declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle
         "clear masks", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) { scratch = pass.write(scratch, Access::transfer_write); },
         [this, scratch](const graph::PassCommands& commands, const RecordContext& context) {
-            const plan::ComputeWork& work = context.batch.work;
+            const device_input::ComputeWork& work = context.batch.work;
             const auto fill = [&](std::uint64_t first, std::uint64_t words, std::uint32_t value) {
                 if (words > 0) {
                     device_->functions().vkCmdFillBuffer(commands, commands.part(scratch).buffer,
@@ -47,8 +47,8 @@ void Masks::declare_shapes(TileGraph& graph, graph::Handle shapes, graph::Handle
     add_pass(
         graph, "mask shapes", shapes_, {{0, shapes}, {1, scratch, write}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            const plan::ComputeWork& work = context.batch.work;
-            shader.dispatch_elements<plan::MaskShapesPush>(
+            const device_input::ComputeWork& work = context.batch.work;
+            shader.dispatch_elements<shaders::MaskShapesPush>(
                 commands, 0, work.mask_threads, first_mask_shape(context),
                 static_cast<std::uint32_t>(work.mask_shapes.size()),
                 static_cast<std::uint32_t>(work.mask_words));
@@ -64,11 +64,11 @@ void Masks::declare_collect(TileGraph& graph, graph::Handle shapes, graph::Handl
          {2, samples, write, sample_parts::summaries},
          {3, samples, write, sample_parts::samples}},
         [](const ComputeShader& shader, VkCommandBuffer commands, const RecordContext& context) {
-            const plan::ComputeWork& work = context.batch.work;
-            shader.dispatch_elements<plan::CollectMasksPush>(
+            const device_input::ComputeWork& work = context.batch.work;
+            shader.dispatch_elements<shaders::CollectMasksPush>(
                 commands, 0, work.overlap_rows,
-                first_mask_shape(context) +
-                    static_cast<std::uint32_t>(work.mask_shapes.size()) * plan::units_of_mask_shape,
+                first_mask_shape(context) + static_cast<std::uint32_t>(work.mask_shapes.size()) *
+                                                shaders::units_of_mask_shape,
                 static_cast<std::uint32_t>(work.overlaps.size()),
                 static_cast<std::uint32_t>(work.mask_words), context.sample_capacity);
         });

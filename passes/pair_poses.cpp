@@ -21,14 +21,14 @@ PairPoses::PairPoses(const gpu::Device& device, const graph::ComputeLayout& layo
         "clear pair poses", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) { for_cpu = pass.write(for_cpu, Access::transfer_write); },
         [this, functions = &device.functions()](const graph::PassCommands& commands,
-                                                const plan::PosePush&) {
+                                                const shaders::PosePush&) {
             // So far there is no pose that cannot be used.
             functions->vkCmdFillBuffer(commands, commands.part(taken).buffer, 0,
-                                       sizeof(plan::no_instance), plan::no_instance);
+                                       sizeof(shaders::no_instance), shaders::no_instance);
         });
     add_pass(graph, "pair poses", shader,
              {{1, poses}, {0, shapes}, {2, placed, write}, {3, for_cpu, write}},
-             [](const ComputeShader& of, VkCommandBuffer commands, const plan::PosePush& all) {
+             [](const ComputeShader& of, VkCommandBuffer commands, const shaders::PosePush& all) {
                  of.dispatch_in_parts(commands, 0, all.instances, all);
              });
     graph.compile(device);

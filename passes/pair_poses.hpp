@@ -15,7 +15,7 @@ struct PairPoses {
 
     ComputeShader shader;
     /// Recorded from push constants without `first`, beside the resources.
-    graph::RecordedGraph<plan::PosePush> graph;
+    graph::RecordedGraph<shaders::PosePush> graph;
     graph::Handle poses;  ///< with the host's uses of it
     graph::Handle shapes;
     graph::Handle instances;

@@ -30,13 +30,13 @@ constexpr graph::ExternalAccess after_writes{.before = Access::storage_write_in_
 constexpr graph::ExternalAccess after_dispatches{.before = Access::indirect_arguments};
 
 /// What a part leaves for the host is its own. Commands of a batch are submitted once.
-graph::ExternalAccess uses_of_found(const plan::PairSearchKind& kind) {
+graph::ExternalAccess uses_of_found(const device_input::PairSearchKind& kind) {
     return kind.are_given() ? graph::ExternalAccess{} : after_writes;
 }
 
-std::uint32_t flags_of(const plan::PairSearchKind& kind) {
-    return (kind.points == plan::FoundPoints::packed ? plan::search_packs_all : 0U) |
-           (kind.goal == plan::PairGoal::contacts ? plan::search_crosses : 0U);
+std::uint32_t flags_of(const device_input::PairSearchKind& kind) {
+    return (kind.points == device_input::FoundPoints::packed ? shaders::search_packs_all : 0U) |
+           (kind.goal == device_input::PairGoal::contacts ? shaders::search_crosses : 0U);
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ FoundPairShaders::FoundPairShaders(const gpu::Device& device, const graph::Compu
 
 PairSearch::PairSearch(const gpu::Device& device, const graph::ComputeLayout& layout,
                        const SearchShaders* shaders, const FoundPairShaders* finding,
-                       const plan::PairSearchKind& kind)
+                       const device_input::PairSearchKind& kind)
     : shaders_(shaders), finding_(finding), flags_(flags_of(kind)) {
     const graph::ExternalAccess found = uses_of_found(kind);
     auto& graph = part_.graph;
@@ -91,8 +91,8 @@ PairSearch::PairSearch(const gpu::Device& device, const graph::ComputeLayout& la
         declare_found_pairs(at);
     }
     declare_edges(at);
-    if (kind.goal == plan::PairGoal::tests) {
-        add(at, "pair crossings", finding_->crossings, plan::edge_total);
+    if (kind.goal == device_input::PairGoal::tests) {
+        add(at, "pair crossings", finding_->crossings, shaders::edge_total);
         add_answers(at, "pair verdicts", finding_->verdicts);
     } else {
         declare_points(at, kind);
@@ -132,10 +132,11 @@ void PairSearch::add_scan(Versions& at, const char* name, std::uint32_t stage) {
         [this, stage](const ComputeShader& scan, VkCommandBuffer commands, const Input& input) {
             scan.push(commands, push_of(input, stage));
             const auto& room = input.capacities;
-            scan.dispatch(commands, stage == plan::edge_total ? scan_groups(room[plan::item_total])
-                                    : stage == plan::point_total
-                                        ? scan_groups(room[plan::edge_total])
-                                        : scan_groups_of_points(room[plan::point_total]));
+            scan.dispatch(commands, stage == shaders::edge_total
+                                        ? scan_groups(room[shaders::item_total])
+                                    : stage == shaders::point_total
+                                        ? scan_groups(room[shaders::edge_total])
+                                        : scan_groups_of_points(room[shaders::point_total]));
         });
 }
 
@@ -144,13 +145,13 @@ void PairSearch::declare_found_pairs(Versions& at) {
         {{0, at.shapes}, {2, at.instances}, {1, at.scratch, write}}, no_stage, no_stage);
     add(part_, "list pairs", finding_->lists,
         {{2, at.instances}, {1, at.scratch, write}, {3, at.arguments, write}}, no_stage,
-        plan::pair_total);
+        shaders::pair_total);
     add(part_, "pair directions", finding_->directions,
         {{0, at.shapes},
          {2, at.instances},
          {1, at.scratch, write},
          {graph::unbound, at.arguments, Access::indirect_arguments}},
-        plan::pair_total, no_stage);
+        shaders::pair_total, no_stage);
 }
 
 void PairSearch::declare_given_pairs(Versions& at) {
@@ -158,27 +159,28 @@ void PairSearch::declare_given_pairs(Versions& at) {
              {{0, at.shapes}, {2, at.instances}, {1, at.scratch, write}, {3, at.arguments, write}},
              [this](const ComputeShader& given, VkCommandBuffer commands, const Input& input) {
                  given.dispatch_in_parts(commands, input.push.first_instance,
-                                         input.push.end_instance, push_of(input, plan::pair_total));
+                                         input.push.end_instance,
+                                         push_of(input, shaders::pair_total));
              });
 }
 
 /// The edges of the directions that are not far from the other shape.
 void PairSearch::declare_edges(Versions& at) {
-    add(at, "pair items", shaders_->items, plan::item_total);
-    add_scan(at, "count edges", plan::edge_total);
-    add(at, "spread edges", shaders_->spread, plan::item_total);
+    add(at, "pair items", shaders_->items, shaders::item_total);
+    add_scan(at, "count edges", shaders::edge_total);
+    add(at, "spread edges", shaders_->spread, shaders::item_total);
 }
 
-void PairSearch::declare_points(Versions& at, const plan::PairSearchKind& kind) {
-    const bool finds_contacts = kind.goal == plan::PairGoal::contacts;
+void PairSearch::declare_points(Versions& at, const device_input::PairSearchKind& kind) {
+    const bool finds_contacts = kind.goal == device_input::PairGoal::contacts;
     if (finds_contacts) {
-        add(at, "pair crossings", finding_->crossings, plan::edge_total);
+        add(at, "pair crossings", finding_->crossings, shaders::edge_total);
     }
-    add(at, "pair edges", shaders_->edges, plan::edge_total);
-    add_scan(at, "count points", plan::point_total);
-    add(at, "pair points", shaders_->points, plan::point_total);
-    if (kind.points != plan::FoundPoints::compared) {
-        add_scan(at, "count found points", plan::record_total);
+    add(at, "pair edges", shaders_->edges, shaders::edge_total);
+    add_scan(at, "count points", shaders::point_total);
+    add(at, "pair points", shaders_->points, shaders::point_total);
+    if (kind.points != device_input::FoundPoints::compared) {
+        add_scan(at, "count found points", shaders::record_total);
     }
     add_answers(at, "pair summaries", finds_contacts ? finding_->contacts : shaders_->summaries);
     if (kind.reads_points()) {
@@ -186,7 +188,7 @@ void PairSearch::declare_points(Versions& at, const plan::PairSearchKind& kind) 
             {{1, at.scratch},
              {2, at.points, write},
              {graph::unbound, at.arguments, Access::indirect_arguments}},
-            plan::point_total, no_stage);
+            shaders::point_total, no_stage);
     }
 }
 
@@ -197,7 +199,7 @@ void PairSearch::add_answers(Versions& at, const char* name, const ComputeShader
          {1, at.scratch, write},
          {3, at.counts, write},
          {graph::unbound, at.arguments, Access::indirect_arguments}},
-        plan::pair_total, plan::record_total);
+        shaders::pair_total, shaders::record_total);
 }
 
 void PairSearch::declare_rows(Versions& at) {
@@ -206,7 +208,7 @@ void PairSearch::declare_rows(Versions& at) {
          {2, at.rows, write},
          {3, at.counts, write},
          {graph::unbound, at.arguments, Access::indirect_arguments}},
-        plan::pair_total, plan::row_total);
+        shaders::pair_total, shaders::row_total);
 }
 
 void PairSearch::add(Passes& passes, const char* name, const ComputeShader& shader,
@@ -225,13 +227,13 @@ void PairSearch::add(Passes& passes, const char* name, const ComputeShader& shad
              });
 }
 
-plan::SearchPush PairSearch::push_of(const Input& input, std::uint32_t stage) const {
-    plan::SearchPush push = input.push;
+shaders::SearchPush PairSearch::push_of(const Input& input, std::uint32_t stage) const {
+    shaders::SearchPush push = input.push;
     push.flags = flags_;
     push.first = 0;
     push.stage = stage;
     push.capacity = stage < input.capacities.size() ? input.capacities[stage] : 0;
-    push.second_capacity = input.capacities[plan::item_total];
+    push.second_capacity = input.capacities[shaders::item_total];
     return push;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <engine/device_input/pair_question.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/graph/compute_layout.hpp>
 #include <engine/graph/recorded_graph.hpp>
-#include <engine/plan/pair_question.hpp>
 #include <passes/compute_shader.hpp>
 
 #include <shaders/pairs.h>
@@ -20,17 +20,17 @@ namespace nearfield::passes {
 
 /// Bytes of the arguments of one stage's dispatch.
 inline constexpr VkDeviceSize search_argument_bytes =
-    plan::words_of_arguments * sizeof(std::uint32_t);
+    shaders::words_of_arguments * sizeof(std::uint32_t);
 
 /// The workgroups that scan the blocks of so many elements.
 [[nodiscard]] constexpr std::uint32_t scan_groups(std::uint64_t elements) {
-    constexpr std::uint64_t scanned = std::uint64_t{plan::scan_block} * plan::search_block;
+    constexpr std::uint64_t scanned = std::uint64_t{shaders::scan_block} * shaders::search_block;
     return elements == 0 ? 1 : static_cast<std::uint32_t>((elements + scanned - 1) / scanned);
 }
 /// The same of the threads that look at so many points.
 [[nodiscard]] constexpr std::uint32_t scan_groups_of_points(std::uint32_t points) {
-    return scan_groups((std::uint64_t{points} + plan::points_per_thread - 1) /
-                       plan::points_per_thread);
+    return scan_groups((std::uint64_t{points} + shaders::points_per_thread - 1) /
+                       shaders::points_per_thread);
 }
 
 /// The shaders that make the boxes of a world's instances, and the levels above them.
@@ -85,15 +85,15 @@ public:
     /// The shaders must stay. `finding`: null where the pairs are given.
     PairSearch(const gpu::Device& device, const graph::ComputeLayout& layout,
                const SearchShaders* shaders, const FoundPairShaders* finding,
-               const plan::PairSearchKind& kind);
+               const device_input::PairSearchKind& kind);
     PairSearch(const PairSearch&) = delete;
     PairSearch& operator=(const PairSearch&) = delete;
 
     /// What they are recorded from, beside the resources that they bind.
     struct Input {
-        plan::SearchPush push{};  ///< without stage, capacities and flags; names the part
+        shaders::SearchPush push{};  ///< without stage, capacities and flags; names the part
         /// How many elements of each stage there is room for.
-        std::array<std::uint32_t, plan::stages_of_pairs> capacities{};
+        std::array<std::uint32_t, shaders::stages_of_pairs> capacities{};
     };
     struct Passes {
         graph::RecordedGraph<Input> graph;
@@ -122,7 +122,7 @@ private:
     void declare_found_pairs(Versions& at);
     void declare_given_pairs(Versions& at);
     void declare_edges(Versions& at);
-    void declare_points(Versions& at, const plan::PairSearchKind& kind);
+    void declare_points(Versions& at, const device_input::PairSearchKind& kind);
     void declare_rows(Versions& at);
     /// Adds a pass of a part that writes into the scratch memory, with a thread per edge or point.
     void add(Versions& at, const char* name, const ComputeShader& shader, std::uint32_t threads_of);
@@ -132,7 +132,7 @@ private:
     void add(Passes& passes, const char* name, const ComputeShader& shader,
              std::initializer_list<graph::Bound> bound, std::uint32_t threads_of,
              std::uint32_t stage);
-    [[nodiscard]] plan::SearchPush push_of(const Input& input, std::uint32_t stage) const;
+    [[nodiscard]] shaders::SearchPush push_of(const Input& input, std::uint32_t stage) const;
 
     const SearchShaders* shaders_;
     const FoundPairShaders* finding_;

@@ -15,13 +15,13 @@ struct ShaderOfQuestion {
     const char* pass;
 };
 
-ShaderOfQuestion shader_of(plan::WorldQuestion question) {
+ShaderOfQuestion shader_of(device_input::WorldQuestion question) {
     switch (question) {
-        case plan::WorldQuestion::rays:
+        case device_input::WorldQuestion::rays:
             return {shaders::world_rays_comp, "first hits"};
-        case plan::WorldQuestion::nearest:
+        case device_input::WorldQuestion::nearest:
             return {shaders::world_nearest_comp, "nearest instances"};
-        case plan::WorldQuestion::poses:
+        case device_input::WorldQuestion::poses:
             break;
     }
     return {shaders::world_poses_comp, "pose tests"};
@@ -34,8 +34,8 @@ ComputeShader make_query_shader(const gpu::Device& device, const graph::ComputeL
 }
 
 /// What the shaders of the instances take of their push constants.
-plan::SearchPush push_of_boxes(const plan::WorldQueryPush& push) {
-    plan::SearchPush boxes{};
+shaders::SearchPush push_of_boxes(const shaders::WorldQueryPush& push) {
+    shaders::SearchPush boxes{};
     boxes.instances = push.instances;
     boxes.boxes = push.boxes;
     return boxes;
@@ -44,7 +44,8 @@ plan::SearchPush push_of_boxes(const plan::WorldQueryPush& push) {
 }  // namespace
 
 WorldQueries::WorldQueries(const gpu::Device& device, const graph::ComputeLayout& layout,
-                           const InstanceShaders* instance_shaders, plan::WorldQuestion question)
+                           const InstanceShaders* instance_shaders,
+                           device_input::WorldQuestion question)
     : shader(make_query_shader(device, layout, shader_of(question))),
       shapes(graph.import_buffer({"shapes", true, false})),
       instances(graph.import_buffer({"instances", true, false})),

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <engine/device_input/world_question.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/graph/recorded_graph.hpp>
-#include <engine/plan/world_question.hpp>
 #include <passes/pair_search.hpp>
 
 #include <shaders/world_queries.h>
@@ -17,12 +17,12 @@ namespace nearfield::passes {
 struct WorldQueries {
     /// The shaders of the instances must stay.
     WorldQueries(const gpu::Device& device, const graph::ComputeLayout& layout,
-                 const InstanceShaders* instance_shaders, plan::WorldQuestion question);
+                 const InstanceShaders* instance_shaders, device_input::WorldQuestion question);
 
     /// What they are recorded from, beside the resources that they bind.
     struct Input {
-        VkBufferCopy copy{};          ///< of the answers
-        plan::WorldQueryPush push{};  ///< without `first`
+        VkBufferCopy copy{};             ///< of the answers
+        shaders::WorldQueryPush push{};  ///< without `first`
     };
 
     ComputeShader shader;

@@ -49,7 +49,7 @@ float field_value(TileData tile, ivec2 cell) {
 }
 
 // The nearest of B's own edges to a point in a cell, whether it is unique, and the side of the
-// boundary, as one word (plan::point_inside and the other flags). The images only save work.
+// boundary, as one word (point_inside and the other flags). The images only save work.
 uint field_feature(TileData tile, vec2 p, ivec2 cell, out Nearest nearest) {
     ivec2 texel = ivec2(tile.atlas_x, tile.atlas_y) + cell;
     uint feature = feature_at(texel);

@@ -10,7 +10,7 @@
 
 layout(local_size_x = group_size) in;
 
-// plan::search_precision
+// queries::search_precision
 const float search_precision = 1.0 / 16384.0;
 
 struct List {

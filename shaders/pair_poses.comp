@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Before all pairs, where the host's own commands write the poses, one thread per instance: its place, as
-// plan::set_place() has it, and the pose itself for the CPU.
+// device_input::set_place() has it, and the pose itself for the CPU.
 
 #include "push.h"
 #include "shapes.glsl"

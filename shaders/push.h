@@ -85,7 +85,7 @@ struct ResolveFieldPointsPush {
     uint sign_mask;
     uint first_word;  // first word of point `origin`
     uint origin;
-    uint words_per_point;  // plan::FieldParts
+    uint words_per_point;  // queries::FieldParts
     uint cells_per_point;  // 4, or 12 for central differences
 };
 

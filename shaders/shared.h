@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#define NEARFIELD_SHARED_BEGIN namespace nearfield::plan {
+#define NEARFIELD_SHARED_BEGIN namespace nearfield::shaders {
 #define NEARFIELD_SHARED_END }
 #define NEARFIELD_DEFAULT(value) = value
 #define NEARFIELD_FLOAT inline constexpr float

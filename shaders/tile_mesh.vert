@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The vertex shader of meshes that carry the rectangle of their tile (plan::TileVertex).
+// The vertex shader of meshes that carry the rectangle of their tile (raster::TileVertex).
 
 #include "mesh.glsl"
 

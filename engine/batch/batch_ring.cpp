@@ -9,7 +9,7 @@
 
 namespace nearfield::batch {
 
-BatchRing::BatchRing(std::uint32_t frames, const plan::PlanLimits& limits,
+BatchRing::BatchRing(std::uint32_t frames, const queries::QueryLimits& limits,
                      const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs,
                      render::Renderer* renderer, ShapeStore& shapes)
     : shapes_(&shapes),
@@ -64,7 +64,7 @@ void BatchRing::release(Frame& frame) {
     frame.number = 0;
 }
 
-plan::FindShape BatchRing::find_shape_for(Frame& frame) {
+queries::FindShape BatchRing::find_shape_for(Frame& frame) {
     return [this, &frame](ShapeHandle shape) { return shapes_->hold(shape, frame.shapes); };
 }
 
@@ -113,9 +113,10 @@ Ticket BatchRing::start_batch(const Batch& batch, Results* memory, Laps& laps, c
 }
 
 Ticket BatchRing::submit(const Batch& batch, const Submission& order, Results* memory, Laps& laps) {
-    return start_batch(batch, memory, laps, [&](Frame& frame, const plan::FindShape& find_shape) {
-        frame.runner.submit(batch.queries(), find_shape, laps, order);
-    });
+    return start_batch(batch, memory, laps,
+                       [&](Frame& frame, const queries::FindShape& find_shape) {
+                           frame.runner.submit(batch.queries(), find_shape, laps, order);
+                       });
 }
 
 Ticket BatchRing::submit(const Batch& batch, const Submission& order) {
@@ -128,7 +129,7 @@ void BatchRing::run(const Batch& batch, Results& results) {
     collect(submit(batch, {}, &results, laps), results, laps);
 }
 
-void BatchRing::answer(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+void BatchRing::answer(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
                        Results& results) {
     if (cpu_runner_ == nullptr) {
         cpu_runner_ = std::make_unique<BatchRunner>(planning_, nullptr);
@@ -169,12 +170,13 @@ void BatchRing::begin_frame(const Recording& recording) {
 Ticket BatchRing::record(const Batch& batch, const Recording& recording) {
     begin_frame(recording);
     Laps laps;
-    return start_batch(batch, nullptr, laps, [&](Frame& frame, const plan::FindShape& find_shape) {
-        frame.host_frame = recording.frame;
-        // Derived from the number that the ticket will have.
-        const auto stamp = static_cast<std::uint32_t>((last_number_ + 1) % UINT32_MAX) + 1;
-        frame.runner.record(batch.queries(), find_shape, laps, recording.commands, stamp);
-    });
+    return start_batch(
+        batch, nullptr, laps, [&](Frame& frame, const queries::FindShape& find_shape) {
+            frame.host_frame = recording.frame;
+            // Derived from the number that the ticket will have.
+            const auto stamp = static_cast<std::uint32_t>((last_number_ + 1) % UINT32_MAX) + 1;
+            frame.runner.record(batch.queries(), find_shape, laps, recording.commands, stamp);
+        });
 }
 
 void BatchRing::complete(std::uint64_t host_frame) {

@@ -18,7 +18,7 @@ namespace nearfield::batch {
 /// it was submitted with until it is collected.
 class BatchRing {
 public:
-    BatchRing(std::uint32_t frames, const plan::PlanLimits& limits,
+    BatchRing(std::uint32_t frames, const queries::QueryLimits& limits,
               const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs,
               render::Renderer* renderer, ShapeStore& shapes);
 
@@ -47,7 +47,7 @@ public:
     void collect(Ticket ticket, Results& results);
     /// Answers queries of the technique `cpu`, which are not counted among the batches in flight.
     /// Replaces `results`. Throws as submit().
-    void answer(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+    void answer(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
                 Results& results);
     /// The resident output of a query of a batch in flight. Throws as collect() does, and if the
     /// query has none.
@@ -102,7 +102,7 @@ private:
     [[nodiscard]] Frame& require(Ticket ticket);
     [[nodiscard]] Frame& free_frame();
     void release(Frame& frame);
-    [[nodiscard]] plan::FindShape find_shape_for(Frame& frame);
+    [[nodiscard]] queries::FindShape find_shape_for(Frame& frame);
     /// Makes room in a frame for a batch that is not started.
     void reserve(Frame& frame, const Batch& batch);
     template <class Resident>

@@ -1,8 +1,8 @@
 #include <engine/base/catch_to_status.hpp>
 #include <engine/base/interruption.hpp>
 #include <engine/batch/batch_runner.hpp>
-#include <engine/plan/empty_result.hpp>
-#include <engine/plan/query_timer.hpp>
+#include <engine/queries/empty_result.hpp>
+#include <engine/queries/query_timer.hpp>
 
 #include <algorithm>
 #include <string>
@@ -20,7 +20,7 @@ std::size_t place_of(const std::vector<Output>& all, std::uint32_t query) {
 }
 
 /// The error of a query whose points do not all stay.
-Status no_room(const plan::RecordsOutput& records, std::uint32_t count) {
+Status no_room(const device_input::RecordsOutput& records, std::uint32_t count) {
     const std::uint64_t bytes =
         sizeof(SummaryData) + std::uint64_t{std::max(count, records.capacity)} * sizeof(PointData);
     return {StatusCode::overflow,
@@ -54,7 +54,7 @@ void BatchRunner::begin_timings(std::size_t queries) {
 }
 
 void BatchRunner::make_tile_batches() {
-    std::span<const plan::ComputeBatch> computed;
+    std::span<const device_input::ComputeBatch> computed;
     if (slot_ != nullptr) {
         std::uint32_t tile_batches = 0;
         for (const auto& tiles : slot_->tiles()) {
@@ -71,9 +71,9 @@ void BatchRunner::make_tile_batches() {
 }
 
 /// For list_tiles(), which does not need the tile batch any more.
-void BatchRunner::note_places(const plan::TileBatch& batch, std::uint32_t number) {
+void BatchRunner::note_places(const device_input::TileBatch& batch, std::uint32_t number) {
     for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
-        plan::Tile& tile = plan_.tiles[batch.tile_index[i]];
+        device_input::PlannedTile& tile = plan_.tiles[batch.tile_index[i]];
         tile.tile_batch = number;
         tile.atlas_x = batch.tiles[i].atlas_x;
         tile.atlas_y = batch.tiles[i].atlas_y;
@@ -82,22 +82,22 @@ void BatchRunner::note_places(const plan::TileBatch& batch, std::uint32_t number
 
 /// Divides the queries between the CPU and the device, and plans what the device answers. Those
 /// that are rejected are left to neither.
-void BatchRunner::check_queries(plan::Submissions submissions) {
+void BatchRunner::check_queries(queries::Submissions submissions) {
     for_cpu_.clear();
     for_device_.clear();
     results_.results.resize(queries_.size());
     for (std::uint32_t i = 0; i < queries_.size(); ++i) {
         checkpoint();
-        const plan::QueryTimer timer(results_.timings.queries, i, &QueryTime::plan);
-        plan::CheckedQuery checked;
-        if (plan::check(i, queries_[i], shapes_[i], planning_->limits, submissions, checked,
-                        results_.results[i])) {
+        const queries::QueryTimer timer(results_.timings.queries, i, &QueryTime::plan);
+        queries::CheckedQuery checked;
+        if (queries::check(i, queries_[i], shapes_[i], planning_->limits, submissions, checked,
+                           results_.results[i])) {
             take(checked);
         }
     }
 }
 
-void BatchRunner::take(const plan::CheckedQuery& checked) {
+void BatchRunner::take(const queries::CheckedQuery& checked) {
     if (checked.technique == Technique::cpu) {
         for_cpu_.push_back(checked);
         return;
@@ -106,7 +106,7 @@ void BatchRunner::take(const plan::CheckedQuery& checked) {
         planning_->planner.begin(queries_.size(), plan_);
     }
     for_device_.push_back(checked.index);
-    const auto plan_drawn_points = [this](plan::CurrentQuery& current, AnyResult& result) {
+    const auto plan_drawn_points = [this](device_input::CurrentQuery& current, AnyResult& result) {
         renderer_->plan_drawn_points(current, result);
     };
     planning_->planner.add(checked, plan_drawn_points, plan_, results_.results[checked.index]);
@@ -121,8 +121,8 @@ void BatchRunner::finish_plan() {
 }
 
 /// Everything up to the recording of tile batches. If the call ends before, nothing is left to do.
-void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
-                        plan::Submissions submissions, Laps& laps) {
+void BatchRunner::begin(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
+                        queries::Submissions submissions, Laps& laps) {
     if (submission_state() == render::SubmissionState::submitted) {
         slot_->wait();  // for a batch that failed half-way
     }
@@ -130,7 +130,7 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     Timings& timings = results_.timings;
     begin_timings(queries.size());
     queries_.assign(queries.begin(), queries.end());
-    plan::find_shapes(queries_, find_shape, shapes_);
+    queries::find_shapes(queries_, find_shape, shapes_);
     expect_answers(queries_.size());
     try {
         choose_techniques(queries_, shapes_, planning_->rule);
@@ -143,12 +143,12 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
         for_device_.clear();
         results_.results.resize(queries_.size());
         for (std::size_t i = 0; i < queries_.size(); ++i) {
-            plan::make_refused(queries_[i], interrupted.status(), results_.results[i]);
+            queries::make_refused(queries_[i], interrupted.status(), results_.results[i]);
         }
     }
     timings.plan += laps.next() - timings.localize;
     if (has_device_work()) {
-        const render::SampleRoom room = submissions == plan::Submissions::one
+        const render::SampleRoom room = submissions == queries::Submissions::one
                                             ? render::SampleRoom::all
                                             : render::SampleRoom::likely;
         renderer_->prepare(resident_, planning_->planner.search_shapes(), plan_.pairs, room, *slot_,
@@ -157,9 +157,9 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     }
 }
 
-void BatchRunner::reserve(std::span<const AnyQuery> queries, const plan::FindShape& find_shape) {
+void BatchRunner::reserve(std::span<const AnyQuery> queries, const queries::FindShape& find_shape) {
     Laps laps;
-    begin(queries, find_shape, plan::Submissions::any, laps);
+    begin(queries, find_shape, queries::Submissions::any, laps);
     if (slot_ != nullptr) {
         slot_->release();
     }
@@ -183,9 +183,9 @@ void BatchRunner::solve(Laps& laps) {
     results_.timings.decode += laps.next();
 }
 
-void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+void BatchRunner::submit(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
                          Laps& laps, const Submission& order) {
-    begin(queries, find_shape, plan::Submissions::any, laps);
+    begin(queries, find_shape, queries::Submissions::any, laps);
     bool is_submitted = has_device_work();
     if (is_submitted) {
         renderer_->submit(*slot_, order, results_.timings);
@@ -207,9 +207,9 @@ void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShap
     }
 }
 
-void BatchRunner::record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+void BatchRunner::record(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
                          Laps& laps, VkCommandBuffer commands, std::uint32_t stamp) {
-    begin(queries, find_shape, plan::Submissions::one, laps);
+    begin(queries, find_shape, queries::Submissions::one, laps);
     solve(laps);
     if (has_device_work()) {
         renderer_->record(*slot_, commands, stamp, results_.timings);
@@ -336,7 +336,7 @@ void BatchRunner::collect(Laps& laps) {
         std::rethrow_exception(std::exchange(late_failure_, nullptr));
     }
     if (!for_device_.empty()) {
-        plan::MemoryBudget memory(planning_->limits);
+        queries::MemoryBudget memory(planning_->limits);
         memory.add(plan_.result_bytes);
         planning_->writer.write(plan_, for_device_, answers_, memory, results_.results);
         solve_what_had_no_room();
@@ -354,8 +354,8 @@ void BatchRunner::solve_what_had_no_room() {
     }
     for_cpu_.clear();
     for (const std::uint32_t index : for_device_) {
-        const plan::PlannedQuery& planned = plan_.queries[index];
-        if (planned.has_points_of(plan::PointSource::device)) {
+        const device_input::PlannedQuery& planned = plan_.queries[index];
+        if (planned.has_points_of(device_input::PointSource::device)) {
             ResultSummary& result = std::visit([](auto& any) -> ResultSummary& { return any; },
                                                results_.results[index]);
             result.regions.clear();  // of the search
@@ -370,7 +370,7 @@ void BatchRunner::solve_what_had_no_room() {
 
 /// Says in the results which records that stay were more than there was room for.
 void BatchRunner::check_room_for_records() {
-    for (const plan::RecordsOutput& records : resident_.records) {
+    for (const device_input::RecordsOutput& records : resident_.records) {
         std::visit(
             [&](auto& result) {
                 if constexpr (requires { result.count, result.points; }) {
@@ -399,14 +399,14 @@ std::optional<std::size_t> BatchRunner::only_query_on_device() const {
         is_only = is_only && (only == nullptr || only == query);
         only = query;
     };
-    for (const plan::Tile& tile : plan_.tiles) {
+    for (const device_input::PlannedTile& tile : plan_.tiles) {
         add(tile.query);
     }
-    for (const plan::SearchDirectionData& searched : plan_.pairs.directions) {
+    for (const shaders::SearchDirectionData& searched : plan_.pairs.directions) {
         add(searched.a);
     }
     // Even without tiles these have passes that state that there is nothing.
-    for (const plan::SamplesOutput& samples : resident_.samples) {
+    for (const device_input::SamplesOutput& samples : resident_.samples) {
         add(samples.query);
     }
     return is_only && only != nullptr
@@ -430,8 +430,8 @@ void BatchRunner::time_device() {
 
 void BatchRunner::list_tiles(std::vector<TileReport>& reports) const {
     reports.clear();
-    for (const plan::Tile& tile : plan_.tiles) {
-        const plan::PlannedQuery& planned = plan_.queries[tile.query];
+    for (const device_input::PlannedTile& tile : plan_.tiles) {
+        const device_input::PlannedQuery& planned = plan_.queries[tile.query];
         const geometry::Vector low = tile.origin();
         const geometry::Vector high =
             low + tile.grid.cell * geometry::Vector(tile.width, tile.height);
@@ -451,14 +451,14 @@ void BatchRunner::list_tiles(std::vector<TileReport>& reports) const {
 }
 
 void BatchRunner::decode(const render::TileWork& tiles, std::uint32_t number) {
-    const plan::TileBatch& batch = tiles.batch(number);
+    const device_input::TileBatch& batch = tiles.batch(number);
     std::vector<AnyResult>& results = results_.results;
     answers_.add_points(batch, tiles.points(number));
     answers_.add_field(plan_, batch, tiles.field_words(number), results);
     if (tiles.left_fields(number)) {
         answers_.refuse_fields(plan_, batch);
     }
-    readback::DeviceAnswers::add_summaries(plan_, batch, tiles.summaries(number), results);
+    DeviceAnswers::add_summaries(plan_, batch, tiles.summaries(number), results);
     answers_.add_samples(plan_, batch, tiles.samples(number));
 }
 

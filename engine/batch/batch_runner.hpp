@@ -1,14 +1,14 @@
 #pragma once
 
 #include <engine/base/stopwatch.hpp>
+#include <engine/batch/device_answers.hpp>
+#include <engine/batch/result_writer.hpp>
 #include <engine/batch/technique_choice.hpp>
-#include <engine/plan/checked_query.hpp>
-#include <engine/plan/planner.hpp>
-#include <engine/plan/resident_outputs.hpp>
-#include <engine/readback/device_answers.hpp>
-#include <engine/readback/result_writer.hpp>
+#include <engine/device_input/planner.hpp>
+#include <engine/device_input/resident_outputs.hpp>
+#include <engine/device_input/resident_outputs_builder.hpp>
+#include <engine/queries/checked_query.hpp>
 #include <engine/render/renderer.hpp>
-#include <engine/resident/resident_outputs_builder.hpp>
 #include <engine/solvers/solver_jobs.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/tile.hpp>
@@ -26,15 +26,15 @@ namespace nearfield::batch {
 /// batch after the other: none of it is needed once a batch is submitted or its answers are
 /// written.
 struct Planning {
-    plan::PlanLimits limits;
+    queries::QueryLimits limits;
     TechniqueRule rule;
     solvers::SolverJobs solvers;
-    plan::Planner planner;
-    readback::ResultWriter writer;
+    device_input::Planner planner;
+    ResultWriter writer;
 
-    Planning(const plan::PlanLimits& limits_of_device,
+    Planning(const queries::QueryLimits& limits_of_device,
              const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs)
-        : limits(plan::with_affordable_atlas(limits_of_device)),
+        : limits(queries::with_affordable_atlas(limits_of_device)),
           rule{limits.techniques, limits.largest_range, thresholds},
           solvers(limits, jobs),
           planner(limits) {}
@@ -58,17 +58,17 @@ public:
     /// there are reported by collect() if there were submissions. Does not wait, except for a batch
     /// that an exception left on the device. `laps`: begun with the call; each part that takes time
     /// ends one.
-    void submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape, Laps& laps,
+    void submit(std::span<const AnyQuery> queries, const queries::FindShape& find_shape, Laps& laps,
                 const Submission& order = {});
     /// The same, but records the tile batches into a command buffer of the host, as the last step:
     /// if it throws, nothing was recorded. A query that needs a second submission is rejected in
     /// its own result. `stamp`: see BatchResources::end_recording().
-    void record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape, Laps& laps,
+    void record(std::span<const AnyQuery> queries, const queries::FindShape& find_shape, Laps& laps,
                 VkCommandBuffer commands, std::uint32_t stamp);
 
     /// Reserves the device memory of such a batch and starts nothing: its resident outputs are
     /// known until the next batch.
-    void reserve(std::span<const AnyQuery> queries, const plan::FindShape& find_shape);
+    void reserve(std::span<const AnyQuery> queries, const queries::FindShape& find_shape);
     /// Drops the device memory, which the next batch allocates again. Not while a batch is in
     /// flight. Keeps it if the device has none left for what replaces it.
     void trim() noexcept;
@@ -104,7 +104,7 @@ public:
     /// The number of queries of the last batch that a device answers.
     [[nodiscard]] std::size_t device_queries() const { return for_device_.size(); }
     /// The plan of these.
-    [[nodiscard]] const plan::Plan& plan() const { return plan_; }
+    [[nodiscard]] const device_input::Plan& plan() const { return plan_; }
     /// Replaces `reports` by one on each of their tiles.
     void list_tiles(std::vector<TileReport>& reports) const;
     /// Contact queries of the device with gradient normals, which are not complete.
@@ -112,23 +112,23 @@ public:
         return for_device_.empty() ? std::span<const std::uint32_t>() : plan_.with_gradient_normals;
     }
     /// The points of a planned query, as the device has answered them.
-    [[nodiscard]] readback::QueryPoints points_of(std::uint32_t query) const {
+    [[nodiscard]] QueryPoints points_of(std::uint32_t query) const {
         return answers_.points_of(plan_, query);
     }
 
 private:
-    void begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
-               plan::Submissions submissions, Laps& laps);
+    void begin(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
+               queries::Submissions submissions, Laps& laps);
     [[nodiscard]] bool has_device_work() const;
-    void check_queries(plan::Submissions submissions);
-    void take(const plan::CheckedQuery& checked);
+    void check_queries(queries::Submissions submissions);
+    void take(const queries::CheckedQuery& checked);
     void solve(Laps& laps);
     void solve_what_had_no_room();
     void begin_timings(std::size_t queries);
     void time_device();
     [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
     void make_tile_batches();
-    void note_places(const plan::TileBatch& batch, std::uint32_t number);
+    void note_places(const device_input::TileBatch& batch, std::uint32_t number);
     void finish_plan();
     void wait();
     void read_back(Laps& laps);
@@ -144,14 +144,14 @@ private:
     std::unique_ptr<render::BatchResources> slot_;  // null without a renderer
     // Points of fields are read while the batch is planned; later they may be gone.
     std::vector<AnyQuery> queries_;
-    std::vector<plan::QueryShapes> shapes_;  // by query
-    std::vector<plan::CheckedQuery> for_cpu_;
+    std::vector<queries::QueryShapes> shapes_;  // by query
+    std::vector<queries::CheckedQuery> for_cpu_;
     std::vector<std::uint32_t> for_device_;  // their places in the batch
     // Only if a device answers some of the queries.
-    plan::Plan plan_;
-    resident::ResidentOutputsBuilder resident_outputs_builder_;
-    plan::ResidentOutputs resident_;
-    readback::DeviceAnswers answers_;
+    device_input::Plan plan_;
+    device_input::ResidentOutputsBuilder resident_outputs_builder_;
+    device_input::ResidentOutputs resident_;
+    DeviceAnswers answers_;
     Results results_;
     bool times_queries_ = false;
     Stopwatch submitted_;

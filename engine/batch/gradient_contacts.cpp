@@ -1,21 +1,21 @@
 #include <engine/base/interruption.hpp>
 #include <engine/batch/gradient_contacts.hpp>
-#include <engine/plan/empty_result.hpp>
-#include <engine/plan/query_timer.hpp>
+#include <engine/queries/empty_result.hpp>
+#include <engine/queries/query_timer.hpp>
 
 namespace nearfield::batch {
 
 void GradientContacts::complete(BatchRunner& main) {
     Results& results = main.results();
     for (const std::uint32_t index : main.with_gradient_normals()) {
-        const plan::PlannedQuery& planned = main.plan().queries[index];
+        const device_input::PlannedQuery& planned = main.plan().queries[index];
         auto& result = std::get<ContactResult>(results.results[index]);
         if (!result.status.ok()) {
             continue;
         }
         try {
             {
-                const plan::QueryTimer timer(main.plan().times, index, &QueryTime::answer);
+                const queries::QueryTimer timer(main.plan().times, index, &QueryTime::answer);
                 const std::uint32_t reverse = planned.points().reverse;
                 decoder_.find({planned, main.points_of(index)},
                               {main.plan().queries[reverse], main.points_of(reverse)}, result.cell,
@@ -23,17 +23,17 @@ void GradientContacts::complete(BatchRunner& main) {
             }
             set_normals(planned, result, results.timings);
             if (result.status.ok()) {
-                const plan::QueryTimer timer(main.plan().times, index, &QueryTime::answer);
+                const queries::QueryTimer timer(main.plan().times, index, &QueryTime::answer);
                 contacts_.write(*planned.a, *planned.b, std::get<ContactQuery>(*planned.query),
                                 result);
             }
         } catch (const Interrupted& interrupted) {
-            plan::cut_short(interrupted.status(), results.results[index]);
+            queries::cut_short(interrupted.status(), results.results[index]);
         }
     }
 }
 
-void GradientContacts::set_normals(const plan::PlannedQuery& planned, ContactResult& result,
+void GradientContacts::set_normals(const device_input::PlannedQuery& planned, ContactResult& result,
                                    Timings& timings) {
     const auto& asked = std::get<ContactQuery>(*planned.query);
     const std::span<const AnyQuery> fields =

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <engine/batch/batch_runner.hpp>
-#include <engine/readback/contacts.hpp>
-#include <engine/records/gradient_normals.hpp>
+#include <engine/batch/contacts.hpp>
+#include <engine/solvers/gradient_normals.hpp>
 
 namespace nearfield::batch {
 
@@ -19,12 +19,13 @@ public:
     void trim() noexcept { runner_.trim(); }
 
 private:
-    void set_normals(const plan::PlannedQuery& planned, ContactResult& result, Timings& timings);
+    void set_normals(const device_input::PlannedQuery& planned, ContactResult& result,
+                     Timings& timings);
 
     BatchRunner runner_;
-    readback::ContactDecoder decoder_;
-    records::FoundContacts contacts_;
-    records::GradientNormals normals_;
+    ContactDecoder decoder_;
+    solvers::FoundContacts contacts_;
+    solvers::GradientNormals normals_;
 };
 
 }  // namespace nearfield::batch

@@ -1,9 +1,9 @@
 #include <engine/base/interruption.hpp>
 #include <engine/batch/technique_choice.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
-#include <engine/plan/field_parts.hpp>
-#include <engine/plan/grid.hpp>
-#include <engine/plan/search_shapes.hpp>
+#include <engine/queries/checked_query.hpp>
+#include <engine/queries/field_parts.hpp>
+#include <engine/queries/grid.hpp>
 
 #include <shaders/fields.h>
 
@@ -17,9 +17,9 @@ using geometry::Box;
 
 /// Whether the shapes take more of a storage buffer than there is, so that compute refuses an
 /// intersection.
-bool exceed_buffer(const AnyQuery& query, const plan::QueryShapes& shapes, std::uint64_t range) {
+bool exceed_buffer(const AnyQuery& query, const queries::QueryShapes& shapes, std::uint64_t range) {
     return std::holds_alternative<IntersectionQuery>(query) && shapes.a != nullptr &&
-           shapes.b != nullptr && plan::max_shape_bytes(*shapes.a, *shapes.b) > range;
+           shapes.b != nullptr && queries::max_shape_bytes(*shapes.a, *shapes.b) > range;
 }
 
 /// Around a shape at its pose, from its radius.
@@ -30,9 +30,10 @@ Box box_around(const geometry::Polygon& polygon, const Pose& pose, double grow) 
 }
 
 /// As many as its grid has, or more where its rectangle follows from the shapes.
-double cells_of(const DistanceFieldQuery& query, const plan::QueryShapes& shapes) {
+double cells_of(const DistanceFieldQuery& query, const queries::QueryShapes& shapes) {
     if (!query.values && !query.features && !query.gradients) {
-        return static_cast<double>(query.points.size()) * plan::field_parts(query).cells_per_point;
+        return static_cast<double>(query.points.size()) *
+               queries::field_parts(query).cells_per_point;
     }
     Box box;
     if (query.rectangle) {
@@ -45,29 +46,29 @@ double cells_of(const DistanceFieldQuery& query, const plan::QueryShapes& shapes
     const double cell = query.tolerance * std::numbers::sqrt2;
     // The numbers of a query that will be rejected may be anything.
     const bool is_grid = !box.isEmpty() && std::isfinite(box.sizes().sum() / cell);
-    return is_grid ? plan::Grid::covering(box, cell).cells() : 0.0;
+    return is_grid ? queries::Grid::covering(box, cell).cells() : 0.0;
 }
 
 bool can(Technique technique, const AnyQuery& query, const TechniqueRule& rule) {
-    return rule.available.has(technique) && plan::is_candidate(technique, query);
+    return rule.available.has(technique) && queries::is_candidate(technique, query);
 }
 
 /// Whether compute may be quicker than the CPU, and refuses nothing that the CPU answers.
-bool may_be_compute(const AnyQuery& query, const plan::QueryShapes& shapes,
+bool may_be_compute(const AnyQuery& query, const queries::QueryShapes& shapes,
                     const TechniqueRule& rule) {
     if (!can(Technique::compute, query, rule) || exceed_buffer(query, shapes, rule.largest_range)) {
         return false;
     }
     // Which edges are about equally near to a cell is found while compute answers.
     if (std::holds_alternative<DistanceFieldQuery>(query)) {
-        return shapes.b == nullptr || shapes.b->size() <= plan::max_certain_edges;
+        return shapes.b == nullptr || shapes.b->size() <= shaders::max_certain_edges;
     }
-    return !std::visit([](const auto& asked) { return plan::takes_a_second_submission(asked); },
+    return !std::visit([](const auto& asked) { return queries::takes_a_second_submission(asked); },
                        query);
 }
 
 /// For what the CPU does not answer; automatic if no other technique does.
-Technique among_devices(const AnyQuery& query, const plan::QueryShapes& shapes,
+Technique among_devices(const AnyQuery& query, const queries::QueryShapes& shapes,
                         const TechniqueRule& rule) {
     const bool draws = can(Technique::raster, query, rule);
     const bool is_refused = exceed_buffer(query, shapes, rule.largest_range);
@@ -88,7 +89,7 @@ struct IsEnough {
     bool cells = false;
 };
 
-IsEnough is_enough(std::span<const AnyQuery> queries, std::span<const plan::QueryShapes> shapes,
+IsEnough is_enough(std::span<const AnyQuery> queries, std::span<const queries::QueryShapes> shapes,
                    const TechniqueRule& rule) {
     if (!rule.thresholds) {
         return {};
@@ -113,7 +114,7 @@ IsEnough is_enough(std::span<const AnyQuery> queries, std::span<const plan::Quer
 
 }  // namespace
 
-void choose_techniques(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes,
+void choose_techniques(std::span<AnyQuery> queries, std::span<const queries::QueryShapes> shapes,
                        const TechniqueRule& rule) {
     const IsEnough enough = is_enough(queries, shapes, rule);
     SparseCheckpoint<256> checkpoint;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <engine/plan/query_shapes.hpp>
-#include <engine/plan/technique.hpp>
+#include <engine/queries/query_shapes.hpp>
+#include <engine/queries/technique.hpp>
 #include <nearfield/context.hpp>
 #include <nearfield/query.hpp>
 
@@ -13,7 +13,7 @@ namespace nearfield::batch {
 
 /// What decides in a context which technique Technique::automatic is.
 struct TechniqueRule {
-    plan::AvailableTechniques available;
+    queries::AvailableTechniques available;
     std::uint64_t largest_range = 0;  ///< bytes of a storage buffer of the device
     /// Unset: the CPU answers whatever it can, since the device is software, or there is none.
     std::optional<DeviceThresholds> thresholds;
@@ -22,7 +22,7 @@ struct TechniqueRule {
 /// Replaces Technique::automatic as its comment says; `shapes`: of each query. It stays if no
 /// available technique can answer, which the planner rejects. Other queries that will be rejected
 /// get a technique too. Reads no vertex.
-void choose_techniques(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes,
+void choose_techniques(std::span<AnyQuery> queries, std::span<const queries::QueryShapes> shapes,
                        const TechniqueRule& rule);
 
 }  // namespace nearfield::batch

@@ -10,9 +10,9 @@
 namespace nearfield::gpu {
 namespace {
 
-// The layouts of geometry::MeshVertex and plan::TileVertex, repeated here because this module does
-// not depend on theirs: position (two floats), distance (a float), id (an unsigned integer), and
-// for TileVertex the rectangle of its tile (four 16-bit integers), tightly packed.
+// The layouts of geometry::MeshVertex and raster::TileVertex, repeated here because this module
+// does not depend on theirs: position (two floats), distance (a float), id (an unsigned integer),
+// and for TileVertex the rectangle of its tile (four 16-bit integers), tightly packed.
 constexpr VkVertexInputBindingDescription vertex_binding{0, 16, VK_VERTEX_INPUT_RATE_VERTEX};
 constexpr VkVertexInputBindingDescription tile_vertex_binding{0, 24, VK_VERTEX_INPUT_RATE_VERTEX};
 constexpr std::uint32_t tile_location = 3;

@@ -19,8 +19,9 @@ using Spirv = std::span<const std::uint32_t>;
                                                       std::span<const VkBool32> constants = {});
 
 /// The differences between the library's graphics pipelines. All draw triangle lists of
-/// geometry::MeshVertex, or of plan::TileVertex where the vertex shader reads the rectangle of its
-/// tile (location 3), with viewport, scissor, stencil masks and stencil reference as dynamic state.
+/// geometry::MeshVertex, or of raster::TileVertex where the vertex shader reads the rectangle of
+/// its tile (location 3), with viewport, scissor, stencil masks and stencil reference as dynamic
+/// state.
 struct GraphicsPipelineDescription {
     std::string name;
     VkRenderPass render_pass = VK_NULL_HANDLE;

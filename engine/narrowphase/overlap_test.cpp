@@ -1,6 +1,6 @@
 #include <engine/base/interruption.hpp>
+#include <engine/geometry/hierarchy.hpp>
 #include <engine/geometry/segment.hpp>
-#include <engine/localize/hierarchy.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 
 #include <optional>
@@ -46,7 +46,7 @@ bool OverlapTest::intersect(const simd::TransformedEdges& a, const simd::Transfo
 
 bool OverlapTest::intersect_without_vertex_inside(const simd::TransformedEdges& a,
                                                   const simd::TransformedEdges& b) {
-    if (!localize::may_meet(a, b)) {
+    if (!geometry::may_meet(a, b)) {
         return false;
     }
     // If the boundaries do not intersect, the shapes overlap only if a whole ring of one lies

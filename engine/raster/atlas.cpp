@@ -11,7 +11,8 @@ void AtlasPacker::begin(std::uint32_t largest_side) {
     extent_ = {};
 }
 
-void AtlasPacker::pack(std::vector<std::uint32_t>& tiles, const std::vector<plan::Tile>& all,
+void AtlasPacker::pack(std::vector<std::uint32_t>& tiles,
+                       const std::vector<device_input::PlannedTile>& all,
                        std::vector<AtlasPlace>& places) {
     if (tiles.empty()) {
         return;
@@ -25,7 +26,7 @@ void AtlasPacker::pack(std::vector<std::uint32_t>& tiles, const std::vector<plan
     double cells = 0.0;
     std::uint32_t widest = 1;
     for (const std::uint32_t i : tiles) {
-        const plan::Tile& tile = all[i];
+        const device_input::PlannedTile& tile = all[i];
         cells += static_cast<double>(tile.width + atlas_gap) * (tile.height + atlas_gap);
         widest = std::max(widest, tile.width);
     }
@@ -38,7 +39,7 @@ void AtlasPacker::pack(std::vector<std::uint32_t>& tiles, const std::vector<plan
     std::uint32_t y = 0;
     std::uint32_t shelf_height = 0;
     for (const std::uint32_t i : tiles) {
-        const plan::Tile& tile = all[i];
+        const device_input::PlannedTile& tile = all[i];
         if (x + tile.width > shelf_width) {
             x = 0;
             y += shelf_height + atlas_gap;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/plan/plan.hpp>
+#include <engine/device_input/plan.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -32,7 +32,7 @@ public:
     void begin(std::uint32_t largest_side);
     /// Places some tiles, which it sorts, in tile batches after those of earlier calls. `places`:
     /// by position in `all`. Precondition: no side of a tile exceeds the largest side.
-    void pack(std::vector<std::uint32_t>& tiles, const std::vector<plan::Tile>& all,
+    void pack(std::vector<std::uint32_t>& tiles, const std::vector<device_input::PlannedTile>& all,
               std::vector<AtlasPlace>& places);
 
     [[nodiscard]] std::uint32_t tile_batches() const { return tile_batches_; }

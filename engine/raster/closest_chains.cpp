@@ -8,11 +8,11 @@
 
 namespace nearfield::raster {
 
+using geometry::Node;
 using geometry::TransformedPolygon;
 using geometry::Vector;
-using localize::Node;
 
-void LazyTree::plant(const TransformedPolygon& polygon, const localize::OverlapOptions& options) {
+void LazyTree::plant(const TransformedPolygon& polygon, const geometry::OverlapOptions& options) {
     hierarchy_.emplace(polygon, options.height, options.volume);
     nodes_.assign(1, hierarchy_->root());
     halves_.assign(1, unknown);
@@ -28,9 +28,9 @@ std::uint32_t LazyTree::first_half(std::uint32_t index) {
     return halves_[index];
 }
 
-localize::Effort ClosestChains::find(const TransformedPolygon& a, const TransformedPolygon& b,
-                                     const localize::OverlapOptions& options,
-                                     std::vector<localize::Chain>& chains) {
+geometry::Effort ClosestChains::find(const TransformedPolygon& a, const TransformedPolygon& b,
+                                     const geometry::OverlapOptions& options,
+                                     std::vector<geometry::Chain>& chains) {
     constexpr std::uint32_t root = LazyTree::root;
     tree_a_.plant(a, options);
     tree_b_.plant(b, options);
@@ -41,8 +41,8 @@ localize::Effort ClosestChains::find(const TransformedPolygon& a, const Transfor
     visit(root, root, squared_distance(root, root));
 
     // The bound, increased for the rounding of transformed vertices and of squares.
-    const double rounding = localize::placement_rounding(a, tree_a_[root].box) +
-                            localize::placement_rounding(b, tree_b_[root].box);
+    const double rounding = geometry::placement_rounding(a, tree_a_[root].box) +
+                            geometry::placement_rounding(b, tree_b_[root].box);
     const double limit = upper_bound() * (1.0 + 1e-12) + rounding;
     kept_.clear();
     for (const LeafPair& pair : pairs_) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <engine/base/interruption.hpp>
-#include <engine/localize/hierarchy.hpp>
-#include <engine/localize/overlap.hpp>
+#include <engine/geometry/hierarchy.hpp>
+#include <engine/geometry/overlap.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ class LazyTree {
 public:
     /// Restarts with only the root. The polygon must outlive the queries.
     void plant(const geometry::TransformedPolygon& polygon,
-               const localize::OverlapOptions& options);
+               const geometry::OverlapOptions& options);
 
     /// The node of the whole boundary.
     static constexpr std::uint32_t root = 0;
@@ -25,7 +25,7 @@ public:
     [[nodiscard]] const geometry::TransformedPolygon& polygon() const {
         return hierarchy_->polygon();
     }
-    [[nodiscard]] const localize::Node& operator[](std::uint32_t index) const {
+    [[nodiscard]] const geometry::Node& operator[](std::uint32_t index) const {
         return nodes_[index];
     }
     [[nodiscard]] bool splits(std::uint32_t index) const {
@@ -39,8 +39,8 @@ public:
 private:
     static constexpr std::uint32_t unknown = 0;  // the root is never a half
 
-    std::optional<localize::Hierarchy> hierarchy_;
-    std::vector<localize::Node> nodes_;
+    std::optional<geometry::Hierarchy> hierarchy_;
+    std::vector<geometry::Node> nodes_;
     std::vector<std::uint32_t> halves_;  // by node: its first half, if requested
 };
 
@@ -53,10 +53,10 @@ public:
     /// Appends to `chains` the parts of A's boundary, leaf by leaf and in order along its rings,
     /// that can contain a point closest to B's boundary. Omitted parts contain none. `options.grow`
     /// is ignored.
-    localize::Effort find(const geometry::TransformedPolygon& a,
+    geometry::Effort find(const geometry::TransformedPolygon& a,
                           const geometry::TransformedPolygon& b,
-                          const localize::OverlapOptions& options,
-                          std::vector<localize::Chain>& chains);
+                          const geometry::OverlapOptions& options,
+                          std::vector<geometry::Chain>& chains);
 
     /// Of the last search: an upper bound on the distance between the boundaries.
     [[nodiscard]] double upper_bound() const;
@@ -68,7 +68,7 @@ private:
     };
 
     [[nodiscard]] double squared_distance(std::uint32_t a, std::uint32_t b) const {
-        return localize::squared_distance(tree_a_[a], tree_b_[b], volume_);
+        return geometry::squared_distance(tree_a_[a], tree_b_[b], volume_);
     }
     void visit(std::uint32_t a, std::uint32_t b, double squared);
     void visit_nearer_first(std::uint32_t a1, std::uint32_t b1, std::uint32_t a2, std::uint32_t b2);

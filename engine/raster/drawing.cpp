@@ -18,7 +18,7 @@ static_assert(sizeof(TileVertex) == 24 && offsetof(TileVertex, x) == 16);
 // The viewport holds the largest atlas in its middle, with half of its side around it: clipping
 // would move edges. A pixel is a power of two in clip coordinates, so that positions on the
 // sub-pixel grid reach the rasteriser without rounding.
-constexpr auto viewport_side = static_cast<float>(2 * plan::largest_atlas_side);
+constexpr auto viewport_side = static_cast<float>(2 * queries::largest_atlas_side);
 constexpr float viewport_origin = -0.25F * viewport_side;
 constexpr VkViewport viewport{
     viewport_origin, viewport_origin, viewport_side, viewport_side, 0.0F, 1.0F};
@@ -108,7 +108,7 @@ StencilPipelines::StencilPipelines(const gpu::Device& device, VkPipelineLayout l
 }
 
 gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
-    const VkPushConstantRange push{draw_push_stages, 0, sizeof(plan::MeshPush)};
+    const VkPushConstantRange push{draw_push_stages, 0, sizeof(shaders::MeshPush)};
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     info.pushConstantRangeCount = 1;
@@ -151,7 +151,7 @@ void TileRenderer::draw_from(VkDeviceSize offset, DrawRange range, float depth_s
         return;
     }
     functions_->vkCmdBindVertexBuffers(commands_, 0, 1, &context_->mesh, &offset);
-    const plan::MeshPush push{{scale, scale}, {bias, bias}, depth_scale, value};
+    const shaders::MeshPush push{{scale, scale}, {bias, bias}, depth_scale, value};
     functions_->vkCmdPushConstants(commands_, layout_, draw_push_stages, 0, sizeof(push), &push);
     functions_->vkCmdDraw(commands_, range.count, 1, range.first, 0);
 }

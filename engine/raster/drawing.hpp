@@ -84,7 +84,7 @@ inline constexpr std::uint32_t parity_a = 0x40;
 inline constexpr std::uint32_t parity_b = 0x80;
 }  // namespace stencil_bits
 
-/// The stages that read the push constants of a draw (plan::MeshPush), from offset 0.
+/// The stages that read the push constants of a draw (shaders::MeshPush), from offset 0.
 inline constexpr VkShaderStageFlags draw_push_stages = VK_SHADER_STAGE_VERTEX_BIT;
 
 /// The pipeline layout of graphics pipelines without resources: only push constants.

@@ -34,7 +34,7 @@ DrawRange TileMeshes::range(TileMeshId id) const {
 }
 
 std::uint32_t DrawnBatch::first_group(std::size_t list) const {
-    std::size_t first = tiles.size() * sizeof(plan::TileData) / sizeof(plan::CellGroup);
+    std::size_t first = tiles.size() * sizeof(shaders::TileData) / sizeof(shaders::CellGroup);
     for (std::size_t i = 0; i < list; ++i) {
         first += groups[i].size();
     }
@@ -46,10 +46,10 @@ void DrawnBatch::clear() {
     lists.clear();
     meshes.clear();
     extent = {};
-    for (std::vector<plan::CellGroup>& list : groups) {
+    for (std::vector<shaders::CellGroup>& list : groups) {
         list.clear();
     }
-    for (std::vector<plan::OverlapTile>& drawn : overlaps) {
+    for (std::vector<device_input::OverlapTile>& drawn : overlaps) {
         drawn.clear();
     }
     largest.clear();

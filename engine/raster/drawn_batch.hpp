@@ -1,7 +1,7 @@
 #pragma once
 
+#include <engine/device_input/tile_batch.hpp>
 #include <engine/geometry/mesh.hpp>
-#include <engine/plan/tile_batch.hpp>
 #include <engine/raster/atlas.hpp>
 #include <engine/raster/edge_lists.hpp>
 #include <nearfield/query.hpp>
@@ -108,7 +108,7 @@ inline constexpr std::uint32_t max_watched = 4;
 struct WatchedTile {
     std::uint32_t tile = 0;  ///< in DrawnBatch::tiles
     IntersectionStrategy strategy{};
-    plan::Part part_a{};
+    device_input::Part part_a{};
     DrawRange a;  ///< in the mesh OverlapStep::watched_a of the strategy
 };
 
@@ -123,17 +123,17 @@ struct WatchedTile {
 inline constexpr std::size_t group_lists = sign_encodings + intersection_strategies;
 
 /// A tile batch that is drawn.
-struct DrawnBatch : plan::TileBatch {
+struct DrawnBatch : device_input::TileBatch {
     EdgeListWriter lists;
     TileMeshes meshes;
     TileSize extent;  ///< of the atlas that the tiles take
-    std::array<std::vector<plan::CellGroup>, group_lists> groups;
+    std::array<std::vector<shaders::CellGroup>, group_lists> groups;
     /// By strategy.
-    std::array<std::vector<plan::OverlapTile>, intersection_strategies> overlaps;
+    std::array<std::vector<device_input::OverlapTile>, intersection_strategies> overlaps;
     /// Tiles of the plan that are worth an occlusion query, by size.
     std::vector<std::uint32_t> largest;
     std::vector<WatchedTile> watched;  ///< by occlusion query
-    std::vector<plan::TilePointData> field_points;
+    std::vector<shaders::TilePointData> field_points;
 
     /// Position of a list's first group in the buffer of tiles, in units of a group.
     [[nodiscard]] std::uint32_t first_group(std::size_t list) const;

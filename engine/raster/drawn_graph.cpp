@@ -26,10 +26,10 @@ DrawKey::DrawKey(const DrawnBatch& batch)
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         overlap[i] = !batch.overlaps[i].empty();
     }
-    for (const plan::FieldTile& tile : batch.field_tiles) {
+    for (const device_input::FieldTile& tile : batch.field_tiles) {
         field[static_cast<std::size_t>(tile.sign)] = true;
-        field_cells = field_cells || tile.first_value != plan::not_asked ||
-                      tile.first_feature != plan::not_asked;
+        field_cells = field_cells || tile.first_value != shaders::not_asked ||
+                      tile.first_feature != shaders::not_asked;
     }
 }
 

@@ -16,7 +16,7 @@ using geometry::Vector;
 constexpr double deviation_slack = 1.0 / 1024.0;
 
 /// The part of an edge with |x| and |y| at most `extent`, if there is one.
-std::optional<plan::TileEdge> cut(const plan::TileEdge& edge, double extent) {
+std::optional<queries::TileEdge> cut(const queries::TileEdge& edge, double extent) {
     if (std::max(edge.a.cwiseAbs().maxCoeff(), edge.b.cwiseAbs().maxCoeff()) <= extent) {
         return edge;
     }
@@ -39,12 +39,12 @@ std::optional<plan::TileEdge> cut(const plan::TileEdge& edge, double extent) {
         return std::nullopt;
     }
     // An end that needs no cut keeps its exact coordinates: neighbouring edges share it.
-    return plan::TileEdge{from == 0.0 ? edge.a : Vector(edge.a + from * d),
-                          to == 1.0 ? edge.b : Vector(edge.a + to * d), edge.simplified};
+    return queries::TileEdge{from == 0.0 ? edge.a : Vector(edge.a + from * d),
+                             to == 1.0 ? edge.b : Vector(edge.a + to * d), edge.simplified};
 }
 
-plan::EdgeData straight(const plan::TileEdge& edge) {
-    plan::EdgeData data;
+shaders::EdgeData straight(const queries::TileEdge& edge) {
+    shaders::EdgeData data;
     data.a.x = static_cast<float>(edge.a.x());
     data.a.y = static_cast<float>(edge.a.y());
     data.b.x = static_cast<float>(edge.b.x());
@@ -54,7 +54,7 @@ plan::EdgeData straight(const plan::TileEdge& edge) {
 
 }  // namespace
 
-void EdgeListWriter::begin_tile(const plan::TileBoundary& boundary) {
+void EdgeListWriter::begin_tile(const queries::TileBoundary& boundary) {
     boundary_ = &boundary;
     ++tile_;
     if (runs_.size() < boundary.size()) {
@@ -77,9 +77,9 @@ std::uint32_t EdgeListWriter::run_of(const geometry::SimplifiedEdge& edge, std::
     return run.place;
 }
 
-plan::EdgeData EdgeListWriter::describe(const plan::TileEdge& edge) {
-    plan::EdgeData data = straight(edge);
-    if (edge.simplified != plan::no_simplified) {
+shaders::EdgeData EdgeListWriter::describe(const queries::TileEdge& edge) {
+    shaders::EdgeData data = straight(edge);
+    if (edge.simplified != queries::no_simplified) {
         const geometry::SimplifiedEdge& simplified = boundary_->edge(edge.simplified);
         data.first_edge = simplified.first;
         if (simplified.count > 1) {
@@ -92,13 +92,14 @@ plan::EdgeData EdgeListWriter::describe(const plan::TileEdge& edge) {
     return data;
 }
 
-plan::EdgeListData EdgeListWriter::write(const std::vector<plan::TileEdge>& edges, double extent) {
+shaders::EdgeListData EdgeListWriter::write(const std::vector<queries::TileEdge>& edges,
+                                            double extent) {
     list_.clear();
     SparseCheckpoint<256> checkpoint;
-    for (const plan::TileEdge& edge : edges) {
+    for (const queries::TileEdge& edge : edges) {
         checkpoint.step();
-        const bool exact =
-            edge.simplified == plan::no_simplified || boundary_->edge(edge.simplified).count == 1;
+        const bool exact = edge.simplified == queries::no_simplified ||
+                           boundary_->edge(edge.simplified).count == 1;
         if (!exact) {
             list_.push_back(describe(edge));
         } else if (const auto part = cut(edge, extent)) {
@@ -108,25 +109,25 @@ plan::EdgeListData EdgeListWriter::write(const std::vector<plan::TileEdge>& edge
     return write_list();
 }
 
-plan::EdgeListData EdgeListWriter::write_list() {
+shaders::EdgeListData EdgeListWriter::write_list() {
     if (geometry_.size() % 2 != 0) {
         geometry_.emplace_back();  // edges and boxes are read four numbers at a time
     }
-    plan::EdgeListData result;
+    shaders::EdgeListData result;
     result.count = static_cast<std::uint32_t>(list_.size());
     result.edges = static_cast<std::uint32_t>(geometry_.size());
-    constexpr std::size_t entries_of_an_edge = sizeof(plan::EdgeData) / sizeof(Entry);
+    constexpr std::size_t entries_of_an_edge = sizeof(shaders::EdgeData) / sizeof(Entry);
     geometry_.resize(result.edges + entries_of_an_edge * list_.size());
     std::memcpy(static_cast<void*>(geometry_.data() + result.edges), list_.data(),
-                sizeof(plan::EdgeData) * list_.size());
+                sizeof(shaders::EdgeData) * list_.size());
     result.clusters = static_cast<std::uint32_t>(geometry_.size());
-    for (std::size_t first = 0; first < list_.size(); first += plan::cluster_size) {
+    for (std::size_t first = 0; first < list_.size(); first += shaders::cluster_size) {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         Entry low{infinity, infinity};
         Entry high{-infinity, -infinity};
-        const std::size_t end = std::min<std::size_t>(first + plan::cluster_size, list_.size());
+        const std::size_t end = std::min<std::size_t>(first + shaders::cluster_size, list_.size());
         for (std::size_t i = first; i < end; ++i) {
-            const plan::EdgeData& edge = list_[i];
+            const shaders::EdgeData& edge = list_[i];
             low.x = std::min(low.x, std::min(edge.a.x, edge.b.x) - edge.deviation);
             low.y = std::min(low.y, std::min(edge.a.y, edge.b.y) - edge.deviation);
             high.x = std::max(high.x, std::max(edge.a.x, edge.b.x) + edge.deviation);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/plan/tile_edges.hpp>
+#include <engine/queries/tile_edges.hpp>
 
 #include <shaders/layout.h>
 
@@ -20,13 +20,13 @@ public:
     /// Starts a new array.
     void clear() { geometry_.clear(); }
     /// Starts a new tile: runs of edges written so far are in other coordinates and are not reused.
-    void begin_tile(const plan::TileBoundary& boundary);
+    void begin_tile(const queries::TileBoundary& boundary);
 
     /// Writes one list; position i of the list is edge i. Edges that stand for themselves are cut,
     /// in double precision, to the square |x|, |y| <= `extent` around the tile's low corner, so
     /// that every coordinate stays within what a float resolves. Nothing outside the square may
     /// matter: edges wholly outside are omitted.
-    plan::EdgeListData write(const std::vector<plan::TileEdge>& edges, double extent);
+    shaders::EdgeListData write(const std::vector<queries::TileEdge>& edges, double extent);
 
     [[nodiscard]] const std::vector<Entry>& geometry() const { return geometry_; }
 
@@ -38,13 +38,13 @@ private:
     };
 
     [[nodiscard]] std::uint32_t run_of(const geometry::SimplifiedEdge& edge, std::uint32_t index);
-    [[nodiscard]] plan::EdgeData describe(const plan::TileEdge& edge);
+    [[nodiscard]] shaders::EdgeData describe(const queries::TileEdge& edge);
     /// Writes list_.
-    plan::EdgeListData write_list();
+    shaders::EdgeListData write_list();
 
-    const plan::TileBoundary* boundary_ = nullptr;
+    const queries::TileBoundary* boundary_ = nullptr;
     std::vector<Entry> geometry_;
-    std::vector<plan::EdgeData> list_;
+    std::vector<shaders::EdgeData> list_;
     std::vector<WrittenRun> runs_;  // by simplified edge
     std::uint64_t tile_ = 0;        // number of tiles begun
 };

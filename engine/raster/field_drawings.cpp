@@ -21,14 +21,15 @@ constexpr VkFormat distance_format = VK_FORMAT_D32_SFLOAT;
 
 constexpr std::uint32_t black = 0;
 constexpr std::uint32_t all_bits = 0xffffffff;
-constexpr std::uint32_t no_feature_outside = plan::max_signed_features;
+constexpr std::uint32_t no_feature_outside = shaders::max_signed_features;
 constexpr float largest_half = 65504.0F;
 
 gpu::Owned<VkPipelineLayout> make_gradients_layout(const gpu::Device& device,
                                                    VkDescriptorSetLayout set) {
     const std::array<VkPushConstantRange, 2> push{
-        {{draw_push_stages, 0, sizeof(plan::MeshPush)},
-         {VK_SHADER_STAGE_FRAGMENT_BIT, plan::gradient_push_offset, sizeof(plan::GradientPush)}}};
+        {{draw_push_stages, 0, sizeof(shaders::MeshPush)},
+         {VK_SHADER_STAGE_FRAGMENT_BIT, shaders::gradient_push_offset,
+          sizeof(shaders::GradientPush)}}};
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     info.setLayoutCount = 1;
@@ -176,7 +177,7 @@ graph::Handle FieldDrawings::features(const Canvas& canvas) const {
         renderer.bind(features_.clear.get());
         renderer.draw(context.batch.meshes.range(rectangles_of(SignEncoding::stencil),
                                                  rectangles_of(SignEncoding::color)),
-                      1.0F, plan::no_feature);
+                      1.0F, shaders::no_feature);
         renderer.bind(features_.mesh.get());
         renderer.draw(TileMeshId::distances);
     };
@@ -221,9 +222,9 @@ void FieldDrawings::record_gradients(const graph::PassCommands& commands,
                               : std::numeric_limits<float>::max();
     const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, std::int32_t shift) {
         renderer.bind(pipeline.get());
-        const plan::GradientPush push{shift, 0.5F, largest};
+        const shaders::GradientPush push{shift, 0.5F, largest};
         functions.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_FRAGMENT_BIT,
-                                     plan::gradient_push_offset, sizeof(push), &push);
+                                     shaders::gradient_push_offset, sizeof(push), &push);
         renderer.draw(TileMeshId::gradients);
     };
     renderer.stencil(0, 0, 0);

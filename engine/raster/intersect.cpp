@@ -12,7 +12,7 @@
 
 namespace nearfield::raster {
 
-using plan::Part;
+using device_input::Part;
 
 Intersect::Intersect(const gpu::Device& device, VkPipelineLayout layout,
                      VkRenderPass number_render_pass, const StencilPipelines& numbers)
@@ -69,7 +69,7 @@ void Intersect::make_stencil(const StencilPipelines& numbers) {
     auto hit = description("nearfield stencil hit");
     hit.stencil_pass = VK_STENCIL_OP_INCREMENT_AND_CLAMP;
     steps.a = make(hit);
-    steps.value_a = plan::white;
+    steps.value_a = shaders::white;
     steps.count_b = 1;
 }
 
@@ -129,7 +129,7 @@ void Intersect::make_depth(const StencilPipelines& numbers) {
     equal.depth_test = true;
     equal.depth_compare = VK_COMPARE_OP_EQUAL;
     steps.a = make(equal);
-    steps.value_a = plan::white;
+    steps.value_a = shaders::white;
     steps.depth_b = 0.0F;
     steps.depth_a = 0.0F;
 }
@@ -221,8 +221,8 @@ void Intersect::record_copies(VkCommandBuffer commands, const DrawContext& conte
     for (std::uint32_t query = 0; query < watched.size(); ++query) {
         if (watched[query].strategy == strategy) {
             const VkDeviceSize offset = summaries.offset +
-                                        watched[query].tile * sizeof(plan::TileSummary) +
-                                        offsetof(plan::TileSummary, passed);
+                                        watched[query].tile * sizeof(shaders::TileSummary) +
+                                        offsetof(shaders::TileSummary, passed);
             device_->functions().vkCmdCopyQueryPoolResults(
                 commands, queries_.get(), query, 1, summaries.buffer, offset, sizeof(std::uint32_t),
                 VK_QUERY_RESULT_WAIT_BIT);

@@ -52,13 +52,13 @@ public:
     void reset(VkCommandBuffer commands, const DrawContext& context) const;
 
     /// Adds the pass that draws every overlap tile of one strategy, which the device has to
-    /// support. Returns the hit image: a colour in the low byte (plan::white: an intersection) and,
-    /// if A takes part by its boundary, the number of the run of A's edges nearby
-    /// (plan::TileBatch::runs) above it.
+    /// support. Returns the hit image: a colour in the low byte (shaders::white: an intersection)
+    /// and, if A takes part by its boundary, the number of the run of A's edges nearby
+    /// (device_input::TileBatch::runs) above it.
     [[nodiscard]] graph::Handle draw(const Canvas& canvas, IntersectionStrategy strategy) const;
 
     /// Adds the pass that writes whether any sample passed to the summaries of a strategy's tiles
-    /// (plan::TileSummary::passed). Declare it after the pass that draws them: queries are not
+    /// (shaders::TileSummary::passed). Declare it after the pass that draws them: queries are not
     /// resources of the graph, so only the order of declaration orders the two.
     void copy_passed(DrawGraph& graph, graph::Handle& samples, IntersectionStrategy strategy) const;
 

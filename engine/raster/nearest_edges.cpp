@@ -29,8 +29,9 @@ double push_part(Vector start, Vector end, double window, std::uint32_t index, E
 
 }  // namespace
 
-void NearestEdgeFinder::find(const plan::TileBoundary& boundary, const plan::NeededBlocks& needed,
-                             double slack, std::vector<NearestEdge>& result) {
+void NearestEdgeFinder::find(const queries::TileBoundary& boundary,
+                             const device_input::NeededBlocks& needed, double slack,
+                             std::vector<NearestEdge>& result) {
     result.clear();
     needed_ = &needed;
     find_candidates(boundary, slack);
@@ -47,7 +48,7 @@ void NearestEdgeFinder::find(const plan::TileBoundary& boundary, const plan::Nee
     }
 }
 
-void NearestEdgeFinder::find_candidates(const plan::TileBoundary& boundary, double slack) {
+void NearestEdgeFinder::find_candidates(const queries::TileBoundary& boundary, double slack) {
     const Vector centre(0.5 * needed_->width(), 0.5 * needed_->height());
     const double nearest = boundary.distance(centre);
     // Double precision up to here. Everything relevant lies within a window around the tile. Edges
@@ -60,7 +61,7 @@ void NearestEdgeFinder::find_candidates(const plan::TileBoundary& boundary, doub
     candidates_.clear();
     inverse_length_.clear();
     boundary.for_edges_near(centre, limit, [&](std::uint32_t i) {
-        const plan::TileEdge edge{boundary.start(i), boundary.end(i), i};
+        const queries::TileEdge edge{boundary.start(i), boundary.end(i), i};
         if (std::sqrt(geometry::nearest_on_segment(centre, edge.a, edge.b).squared_distance) >
             limit) {
             return;

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <engine/device_input/needed_blocks.hpp>
 #include <engine/geometry/edge_list_kernels.hpp>
-#include <engine/plan/needed_blocks.hpp>
-#include <engine/plan/tile_edges.hpp>
+#include <engine/queries/tile_edges.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace nearfield::raster {
 /// An edge that can be nearest to a needed sample, and the largest distance of such a sample from
 /// it, in cells. A side without such samples has reach 0.
 struct NearestEdge {
-    plan::TileEdge edge;
+    queries::TileEdge edge;
     double reach_left = 0.0;  ///< left of the direction from a to b
     double reach_right = 0.0;
     [[nodiscard]] double reach() const { return std::max(reach_left, reach_right); }
@@ -28,19 +28,20 @@ public:
     /// Replaces `result`, in ring order. `slack`: how far, in cells, the true boundary and a drawn
     /// distance may be off; the edge nearest on any boundary within it is found as well as the
     /// nearest simplified edge.
-    void find(const plan::TileBoundary& boundary, const plan::NeededBlocks& needed, double slack,
-              std::vector<NearestEdge>& result);
+    void find(const queries::TileBoundary& boundary, const device_input::NeededBlocks& needed,
+              double slack, std::vector<NearestEdge>& result);
 
 private:
-    void find_candidates(const plan::TileBoundary& boundary, double slack);
+    void find_candidates(const queries::TileBoundary& boundary, double slack);
     void visit(std::uint32_t column, std::uint32_t row, std::uint32_t count, std::size_t first,
                std::size_t end);
     void reach_out(std::size_t first, std::size_t end, float x, float y, double limit,
                    double half_diagonal, double reach);
 
-    const plan::NeededBlocks* needed_ = nullptr;
+    const device_input::NeededBlocks* needed_ = nullptr;
     double slack_ = 0.0;
-    std::vector<plan::TileEdge> near_;  // all that can matter somewhere in the tile, in ring order
+    std::vector<queries::TileEdge>
+        near_;  // all that can matter somewhere in the tile, in ring order
     // Edges, cut to their parts near the tile, relative to its centre; indices are into near_.
     geometry::EdgeList candidates_;      // one list per level, a stack of them
     std::vector<float> squared_;         // by place among them: squared distance to the centre

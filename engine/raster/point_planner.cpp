@@ -1,5 +1,5 @@
 #include <engine/base/interruption.hpp>
-#include <engine/plan/placed_pair.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/raster/point_planner.hpp>
 
 #include <algorithm>
@@ -9,18 +9,18 @@
 namespace nearfield::raster {
 namespace {
 
+using device_input::CurrentQuery;
+using device_input::PlannedPoints;
+using device_input::PlannedQuery;
 using geometry::Box;
+using geometry::Chain;
 using geometry::grown;
 using geometry::TransformedPolygon;
 using geometry::Vector;
-using localize::Chain;
-using plan::CurrentQuery;
-using plan::PlannedPoints;
-using plan::PlannedQuery;
 
 // Host memory per point: planned and resolved, in the result and in the buffers on the way there.
-constexpr double bytes_per_point =
-    sizeof(plan::PlannedPoint) + std::max(sizeof(PenetratingPoint), sizeof(ContactPoint)) + 64.0;
+constexpr double bytes_per_point = sizeof(device_input::PlannedPoint) +
+                                   std::max(sizeof(PenetratingPoint), sizeof(ContactPoint)) + 64.0;
 // For either boundary, in a search that is finished exactly.
 constexpr double max_search_samples = 4096.0;
 
@@ -38,8 +38,8 @@ std::uint32_t box_of(const Vector& p, const std::vector<Box>& boxes, std::uint32
 }
 
 bool check_numbers(const PlannedQuery& planned, ResultSummary& result) {
-    return plan::check_numbers(planned, geometry::BoxedPolygon(*planned.a, planned.pose_a),
-                               geometry::BoxedPolygon(*planned.b, planned.pose_b), result);
+    return device_input::check_numbers(planned, geometry::BoxedPolygon(*planned.a, planned.pose_a),
+                                       geometry::BoxedPolygon(*planned.b, planned.pose_b), result);
 }
 
 /// Finds the chains of A that can penetrate; returns an upper bound on the points asked for.
@@ -48,22 +48,22 @@ double find_inside(const PenetrationQuery& query, CurrentQuery& current, std::ve
     const PlannedQuery& planned = current.planned();
     const TransformedPolygon a(*planned.a, planned.pose_a);
     const TransformedPolygon b(*planned.b, planned.pose_b);
-    plan::find_chains(current.plan, result, chains, [&] {
-        return localize::chains_in_volume(a, b, current.overlap_options(0.0), chains);
+    device_input::find_chains(current.plan, result, chains, [&] {
+        return geometry::chains_in_volume(a, b, current.overlap_options(0.0), chains);
     });
     return query.points == PenetrationPoints::vertices
-               ? plan::max_vertices(chains)
-               : plan::max_samples(a, chains, result.cell, b.box());
+               ? queries::max_vertices(chains)
+               : queries::max_samples(a, chains, result.cell, b.box());
 }
 
 /// Finds the chains of A that can hold contacts; returns an upper bound on their samples.
 double find_near(const TransformedPolygon& a, const TransformedPolygon& b, double contact_distance,
                  const CurrentQuery& current, std::vector<Chain>& chains, ResultSummary& result) {
-    plan::find_chains(current.plan, result, chains, [&] {
-        return localize::chains_near_boundary(a, b, current.overlap_options(contact_distance),
+    device_input::find_chains(current.plan, result, chains, [&] {
+        return geometry::chains_near_boundary(a, b, current.overlap_options(contact_distance),
                                               chains);
     });
-    return plan::max_samples(a, chains, result.cell, grown(b.box(), contact_distance));
+    return queries::max_samples(a, chains, result.cell, grown(b.box(), contact_distance));
 }
 
 /// Towards 0, which is below: what would be negative is 0.
@@ -74,10 +74,10 @@ std::uint64_t index_along(double coordinate, std::uint64_t count) {
 }  // namespace
 
 void PointTiles::spread(const geometry::TransformedPolygon& a,
-                        const std::vector<plan::BoundaryPoint>& samples, const Box& within,
-                        const plan::Regions& regions, std::uint32_t query,
-                        plan::CurrentQuery& current) {
-    plan::Plan& plan = current.plan;
+                        const std::vector<queries::BoundaryPoint>& samples, const Box& within,
+                        const queries::Regions& regions, std::uint32_t query,
+                        device_input::CurrentQuery& current) {
+    device_input::Plan& plan = current.plan;
     side_ = std::min(current.limits.points_tile, current.limits.largest_tile);
     find_runs(a, samples, within, regions);
     const std::size_t first_tile = plan.tiles.size();
@@ -90,11 +90,12 @@ void PointTiles::spread(const geometry::TransformedPolygon& a,
         include(run, plan.tiles[tile_of(run)]);
     }
     for (std::size_t i = first_tile; i < plan.tiles.size(); ++i) {
-        plan.tiles[i].needed = plan::NeededBlocks(plan.tiles[i].width, plan.tiles[i].height);
+        plan.tiles[i].needed =
+            device_input::NeededBlocks(plan.tiles[i].width, plan.tiles[i].height);
     }
     for (const Run& run : runs_) {
         const std::size_t index = tile_of(run);
-        plan::Tile& tile = plan.tiles[index];
+        device_input::PlannedTile& tile = plan.tiles[index];
         for (std::size_t i = run.first; i < run.end; ++i) {
             plan.points.push_back({kept_[i], static_cast<std::uint32_t>(index)});
             tile.needed.add(static_cast<std::uint32_t>(cells_[i].column - tile.column),
@@ -104,16 +105,16 @@ void PointTiles::spread(const geometry::TransformedPolygon& a,
 }
 
 void PointTiles::find_runs(const geometry::TransformedPolygon& a,
-                           const std::vector<plan::BoundaryPoint>& samples, const Box& within,
-                           const plan::Regions& regions) {
-    const std::vector<plan::Grid>& grids = regions.grids();  // by box
+                           const std::vector<queries::BoundaryPoint>& samples, const Box& within,
+                           const queries::Regions& regions) {
+    const std::vector<queries::Grid>& grids = regions.grids();  // by box
     kept_.clear();
     cells_.clear();
     runs_.clear();
-    plan::BoundaryPositions position(a);
+    queries::BoundaryPositions position(a);
     std::uint32_t grid = 0;
     SparseCheckpoint<64> checkpoint;
-    for (const plan::BoundaryPoint& sample : samples) {
+    for (const queries::BoundaryPoint& sample : samples) {
         checkpoint.step();
         const Vector p = position(sample);
         if (!within.contains(p)) {
@@ -145,8 +146,8 @@ void PointTiles::add_to_run(std::uint32_t grid, const PointCell& cell) {
     runs_.push_back({{grid, cell.row / side_, cell.column / side_}, point, point + 1, cell, cell});
 }
 
-void PointTiles::add_tiles(const std::vector<plan::Grid>& grids, std::uint32_t query,
-                           plan::Plan& plan) {
+void PointTiles::add_tiles(const std::vector<queries::Grid>& grids, std::uint32_t query,
+                           device_input::Plan& plan) {
     keys_.clear();
     for (const Run& run : runs_) {
         keys_.push_back(run.key);
@@ -154,15 +155,15 @@ void PointTiles::add_tiles(const std::vector<plan::Grid>& grids, std::uint32_t q
     std::sort(keys_.begin(), keys_.end());
     keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
     for (const TileKey& key : keys_) {
-        plan::Tile& tile = plan.tiles.emplace_back();
+        device_input::PlannedTile& tile = plan.tiles.emplace_back();
         tile.query = query;
-        tile.kind = plan::TileKind::points;
+        tile.kind = device_input::TileKind::points;
         tile.region = key.grid;
         tile.grid = grids[key.grid];
     }
 }
 
-void PointTiles::include(const Run& run, plan::Tile& tile) {
+void PointTiles::include(const Run& run, device_input::PlannedTile& tile) {
     if (tile.width == 0) {
         tile.column = run.low.column;
         tile.row = run.low.row;
@@ -188,7 +189,7 @@ void PointPlanner::plan(CurrentQuery& current, AnyResult& any) {
 }
 
 void PointPlanner::add_samples(std::uint32_t direction, const Box& within, CurrentQuery& current) {
-    plan::Plan& plan = current.plan;
+    device_input::Plan& plan = current.plan;
     PlannedQuery& planned = plan.queries[direction];
     const TransformedPolygon a(*planned.a, planned.pose_a);
     PlannedPoints& points = planned.points();
@@ -218,9 +219,9 @@ void PointPlanner::add_deepest(const PenetrationQuery& query, double samples, Cu
     current.memory.require(bytes_per_point * samples, 1.0);
     samples_.clear();
     if (query.points == PenetrationPoints::vertices) {
-        plan::vertices_of_chains(a, chains_[0], samples_);
+        queries::vertices_of_chains(a, chains_[0], samples_);
     } else {
-        plan::sample_chains(a, chains_[0], result.cell, box_b, samples_);
+        queries::sample_chains(a, chains_[0], result.cell, box_b, samples_);
     }
     regions_.cover(chains_[0], 0.0, box_b, result);
     add_samples(current.index, box_b, current);
@@ -237,7 +238,7 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const double of_a = find_near(a, b, near, current, chains_[0], result);
     const double of_b = find_near(b, a, near, current, chains_[1], result);
-    const std::uint32_t reverse = plan::add_reverse(current);
+    const std::uint32_t reverse = device_input::add_reverse(current);
     add_near(current.index, near, chains_[0], of_a, current, result);
     add_near(reverse, near, chains_[1], of_b, current, result);
 }
@@ -254,8 +255,8 @@ void PointPlanner::add_near(std::uint32_t direction, double contact_distance,
     regions_.cover(chains, 0.0, within, result);
     current.memory.require(bytes_per_point * samples, 1.0);
     samples_.clear();
-    plan::sample_chains(TransformedPolygon(*planned.a, planned.pose_a), chains, result.cell, within,
-                        samples_);
+    queries::sample_chains(TransformedPolygon(*planned.a, planned.pose_a), chains, result.cell,
+                           within, samples_);
     add_samples(direction, within, current);
 }
 
@@ -277,11 +278,12 @@ void PointPlanner::plan_closest(bool both_ways, CurrentQuery& current, ResultSum
         return;
     }
     tested_.clear();
-    result.intersects = plan::intersect(planned, tested_, overlap_test_);
+    result.intersects = queries::intersect(planned, tested_, overlap_test_);
     if (result.intersects) {
         return;  // at distance 0: nothing to render
     }
-    const std::uint32_t reverse = both_ways ? plan::add_reverse(current) : PlannedPoints::none;
+    const std::uint32_t reverse =
+        both_ways ? device_input::add_reverse(current) : PlannedPoints::none;
     double samples = find_closest(current.index, current, chains_[0], result);
     if (both_ways) {
         samples = std::max(samples, find_closest(reverse, current, chains_[1], result));
@@ -299,23 +301,24 @@ double PointPlanner::find_closest(std::uint32_t direction, const CurrentQuery& c
     const PlannedQuery& planned = current.plan.queries[direction];
     const TransformedPolygon a(*planned.a, planned.pose_a);
     const TransformedPolygon b(*planned.b, planned.pose_b);
-    plan::find_chains(current.plan, result, chains,
-                      [&] { return closest_.find(a, b, current.overlap_options(0.0), chains); });
-    return plan::max_samples(a, chains, result.cell, grown(a.box(), result.cell));
+    device_input::find_chains(current.plan, result, chains, [&] {
+        return closest_.find(a, b, current.overlap_options(0.0), chains);
+    });
+    return queries::max_samples(a, chains, result.cell, grown(a.box(), result.cell));
 }
 
 void PointPlanner::add_closest(std::uint32_t direction, const std::vector<Chain>& chains,
                                CurrentQuery& current, ResultSummary& result) {
     PlannedQuery& planned = current.plan.queries[direction];
-    planned.budget = plan::search_budget(result.cell / std::numbers::sqrt2);
+    planned.budget = queries::search_budget(result.cell / std::numbers::sqrt2);
     const TransformedPolygon a(*planned.a, planned.pose_a);
     // A box slightly larger than A, so that rounding drops no point.
     const Box everything = grown(a.box(), result.cell);
     regions_.cover(chains, 0.0, everything, result);
-    const double samples = plan::max_samples(a, chains, result.cell, everything);
+    const double samples = queries::max_samples(a, chains, result.cell, everything);
     current.memory.require(bytes_per_point * samples, 1.0);
     samples_.clear();
-    plan::sample_chains(a, chains, result.cell, everything, samples_);
+    queries::sample_chains(a, chains, result.cell, everything, samples_);
     // A short chain may lie between two samples.
     for (const Chain& chain : chains) {
         samples_.push_back({chain.first, 0.0});

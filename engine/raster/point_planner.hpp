@@ -1,9 +1,9 @@
 #pragma once
 
+#include <engine/device_input/current_query.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/plan/current_query.hpp>
-#include <engine/plan/regions.hpp>
+#include <engine/queries/regions.hpp>
 #include <engine/raster/closest_chains.hpp>
 #include <nearfield/result.hpp>
 
@@ -21,8 +21,9 @@ public:
     /// point belongs to the region that contains it, or to the nearest one if rounding left it
     /// outside all of them. `query`: in Plan::queries.
     void spread(const geometry::TransformedPolygon& a,
-                const std::vector<plan::BoundaryPoint>& samples, const geometry::Box& within,
-                const plan::Regions& regions, std::uint32_t query, plan::CurrentQuery& current);
+                const std::vector<queries::BoundaryPoint>& samples, const geometry::Box& within,
+                const queries::Regions& regions, std::uint32_t query,
+                device_input::CurrentQuery& current);
 
 private:
     struct PointCell {
@@ -47,18 +48,19 @@ private:
     };
 
     void find_runs(const geometry::TransformedPolygon& a,
-                   const std::vector<plan::BoundaryPoint>& samples, const geometry::Box& within,
-                   const plan::Regions& regions);
+                   const std::vector<queries::BoundaryPoint>& samples, const geometry::Box& within,
+                   const queries::Regions& regions);
     void add_to_run(std::uint32_t grid, const PointCell& cell);
-    void add_tiles(const std::vector<plan::Grid>& grids, std::uint32_t query, plan::Plan& plan);
+    void add_tiles(const std::vector<queries::Grid>& grids, std::uint32_t query,
+                   device_input::Plan& plan);
     /// Shrinks a tile's cells to those of the points in it.
-    static void include(const Run& run, plan::Tile& tile);
+    static void include(const Run& run, device_input::PlannedTile& tile);
 
-    std::uint32_t side_ = 0;                 // of the tiles, in cells
-    std::vector<plan::BoundaryPoint> kept_;  // samples that lie within
-    std::vector<PointCell> cells_;           // by kept sample
-    std::vector<Run> runs_;                  // of them
-    std::vector<TileKey> keys_;              // of the tiles, sorted
+    std::uint32_t side_ = 0;                    // of the tiles, in cells
+    std::vector<queries::BoundaryPoint> kept_;  // samples that lie within
+    std::vector<PointCell> cells_;              // by kept sample
+    std::vector<Run> runs_;                     // of them
+    std::vector<TileKey> keys_;                 // of the tiles, sorted
 };
 
 /// Plans queries about points of one boundary in the field of the other, by localisation and
@@ -68,37 +70,40 @@ public:
     /// Adds to the plan, and to the result what is known before rendering. An error is stated in
     /// the result and leaves the query without tiles. Throws StatusException (too_large) if the
     /// batch needs more memory than the limit.
-    void plan(plan::CurrentQuery& current, AnyResult& any);
+    void plan(device_input::CurrentQuery& current, AnyResult& any);
 
 private:
-    void plan(const PenetrationQuery& query, plan::CurrentQuery& current,
+    void plan(const PenetrationQuery& query, device_input::CurrentQuery& current,
               PenetrationResult& result);
-    void plan(const ContactQuery& query, plan::CurrentQuery& current, ContactResult& result);
-    void plan(const ClosestPointQuery& query, plan::CurrentQuery& current,
+    void plan(const ContactQuery& query, device_input::CurrentQuery& current,
+              ContactResult& result);
+    void plan(const ClosestPointQuery& query, device_input::CurrentQuery& current,
               ClosestPointResult& result);
-    void plan(const SeparationQuery& query, plan::CurrentQuery& current, SeparationResult& result);
+    void plan(const SeparationQuery& query, device_input::CurrentQuery& current,
+              SeparationResult& result);
     /// Samples the chains of A; `samples` is an upper bound on their number.
-    void add_deepest(const PenetrationQuery& query, double samples, plan::CurrentQuery& current,
-                     PenetrationResult& result);
+    void add_deepest(const PenetrationQuery& query, double samples,
+                     device_input::CurrentQuery& current, PenetrationResult& result);
     void add_near(std::uint32_t direction, double contact_distance,
-                  const std::vector<localize::Chain>& chains, double samples,
-                  plan::CurrentQuery& current, ResultSummary& result);
-    void plan_closest(bool both_ways, plan::CurrentQuery& current, ResultSummary& result);
+                  const std::vector<geometry::Chain>& chains, double samples,
+                  device_input::CurrentQuery& current, ResultSummary& result);
+    void plan_closest(bool both_ways, device_input::CurrentQuery& current, ResultSummary& result);
     /// Finds the chains that can hold the closest point; returns an upper bound on their samples.
-    [[nodiscard]] double find_closest(std::uint32_t direction, const plan::CurrentQuery& current,
-                                      std::vector<localize::Chain>& chains, ResultSummary& result);
-    void add_closest(std::uint32_t direction, const std::vector<localize::Chain>& chains,
-                     plan::CurrentQuery& current, ResultSummary& result);
+    [[nodiscard]] double find_closest(std::uint32_t direction,
+                                      const device_input::CurrentQuery& current,
+                                      std::vector<geometry::Chain>& chains, ResultSummary& result);
+    void add_closest(std::uint32_t direction, const std::vector<geometry::Chain>& chains,
+                     device_input::CurrentQuery& current, ResultSummary& result);
     /// Adds those of the samples that lie in `within`, and the tiles or regions that hold them.
     void add_samples(std::uint32_t direction, const geometry::Box& within,
-                     plan::CurrentQuery& current);
+                     device_input::CurrentQuery& current);
 
     simd::TransformedInstances tested_;
     narrowphase::OverlapTest overlap_test_;
     ClosestChains closest_;
-    std::array<std::vector<localize::Chain>, 2> chains_;  // A and B
-    plan::Regions regions_;
-    std::vector<plan::BoundaryPoint> samples_;
+    std::array<std::vector<geometry::Chain>, 2> chains_;  // A and B
+    queries::Regions regions_;
+    std::vector<queries::BoundaryPoint> samples_;
     PointTiles tiles_;
 };
 

@@ -27,7 +27,7 @@ std::uint64_t bytes_of_all(std::span<const std::vector<Element>> meshes) {
     return bytes;
 }
 
-std::span<const std::vector<plan::CellGroup>> groups_of(const DrawnBatch& batch) {
+std::span<const std::vector<shaders::CellGroup>> groups_of(const DrawnBatch& batch) {
     return batch.groups;
 }
 
@@ -45,8 +45,8 @@ class DrawnTiles final : public render::TileWork {
 public:
     DrawnTiles(const gpu::Device& device, const graph::ComputeLayout& layout, Raster& raster);
 
-    void build(const plan::Plan& plan) override;
-    [[nodiscard]] const plan::TileBatch& batch(std::uint32_t number) const override {
+    void build(const device_input::Plan& plan) override;
+    [[nodiscard]] const device_input::TileBatch& batch(std::uint32_t number) const override {
         return batches_[number];
     }
 
@@ -89,7 +89,7 @@ DrawnTiles::DrawnTiles(const gpu::Device& device, const graph::ComputeLayout& la
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
              "nearfield input") {}
 
-void DrawnTiles::build(const plan::Plan& plan) {
+void DrawnTiles::build(const device_input::Plan& plan) {
     set_count(raster_->builder().build(plan, batches_));
     atlas_ = raster_->builder().extent();
 }
@@ -187,7 +187,7 @@ std::shared_ptr<const DrawnGraph> Raster::graph_for(const DrawnBatch& batch, Til
     constexpr std::uint32_t gap = atlas_gap;
     constexpr std::size_t max_graphs = 8;
     const DrawKey needs(batch);
-    VkExtent2D extent{plan::smallest_atlas + gap, plan::smallest_atlas + gap};
+    VkExtent2D extent{queries::smallest_atlas + gap, queries::smallest_atlas + gap};
     const auto known = std::find_if(graphs_.begin(), graphs_.end(),
                                     [&](const auto& graph) { return graph->needs() == needs; });
     const bool grows = known != graphs_.end();

@@ -20,7 +20,7 @@ public:
     /// when a batch first needs one.
     Raster(const gpu::Device& device, const graph::ComputeLayout& layout, bool makes_pipelines);
 
-    void plan_points(plan::CurrentQuery& current, AnyResult& result) override {
+    void plan_points(device_input::CurrentQuery& current, AnyResult& result) override {
         points_.plan(current, result);
     }
     [[nodiscard]] std::unique_ptr<render::TileWork> make_work() override;

@@ -27,7 +27,7 @@ std::uint32_t sign_mask(SignEncoding encoding) {
         case SignEncoding::color:
             return white_mask;
         case SignEncoding::feature_bit:
-            return plan::feature_bit_mask;
+            return shaders::feature_bit_mask;
         case SignEncoding::stencil:
             break;
     }
@@ -46,31 +46,31 @@ std::vector<graph::Bound> bound_to(graph::Handle& input, FieldImages& images) {
     return bound;
 }
 
-/// Dispatches one workgroup for each plan::CellGroup of a list, in as many dispatches as the
+/// Dispatches one workgroup for each shaders::CellGroup of a list, in as many dispatches as the
 /// device's limits require. The push constants of each, a structure of shaders/push.h, are the
 /// position of its first group, and `words`.
 template <class Push, class... Words>
 void dispatch_groups(const ComputeShader& shader, VkCommandBuffer commands, const DrawnBatch& batch,
                      std::size_t list, Words... words) {
     const auto count = static_cast<std::uint32_t>(batch.groups[list].size());
-    for (std::uint32_t first = 0; first < count; first += plan::max_workgroups) {
+    for (std::uint32_t first = 0; first < count; first += shaders::max_workgroups) {
         shader.push(commands, Push{batch.first_group(list) + first, words...});
-        shader.dispatch(commands, std::min(count - first, plan::max_workgroups));
+        shader.dispatch(commands, std::min(count - first, shaders::max_workgroups));
     }
 }
 
 void dispatch_gradients(const ComputeShader& shader, VkCommandBuffer commands,
                         const DrawContext& context) {
-    for (const plan::FieldTile& field : context.batch.field_tiles) {
-        if (field.first_gradient != plan::not_asked) {
-            const plan::TileData& tile = context.batch.tiles[field.tile];
-            shader.dispatch_elements<plan::CollectGradientsPush>(
+    for (const device_input::FieldTile& field : context.batch.field_tiles) {
+        if (field.first_gradient != shaders::not_asked) {
+            const shaders::TileData& tile = context.batch.tiles[field.tile];
+            shader.dispatch_elements<shaders::CollectGradientsPush>(
                 commands, 0, tile.width * tile.height, field.first_gradient, 0U, 0U, field.tile);
         }
     }
-    for (const plan::FieldPointRun& run : context.batch.field_point_runs) {
+    for (const device_input::FieldPointRun& run : context.batch.field_point_runs) {
         if (run.parts.blended) {
-            shader.dispatch_elements<plan::CollectGradientsPush>(
+            shader.dispatch_elements<shaders::CollectGradientsPush>(
                 commands, 4 * run.first, 4 * (run.first + run.count), run.first_word, run.first,
                 run.parts.words_per_point, 0U);
         }
@@ -99,7 +99,7 @@ void Resolve::points(DrawGraph& graph, graph::Handle input, graph::Handle result
               {3, results, write}},
              [](const ComputeShader& shader, VkCommandBuffer commands, const DrawContext& context) {
                  const auto count = static_cast<std::uint32_t>(context.batch.points.size());
-                 shader.dispatch_elements<plan::ResolvePointsPush>(commands, 0, count);
+                 shader.dispatch_elements<shaders::ResolvePointsPush>(commands, 0, count);
              });
 }
 
@@ -115,8 +115,8 @@ void Resolve::field_cells(DrawGraph& graph, graph::Handle input, FieldImages ima
                      const std::size_t list = group_list(sign);
                      if (!context.batch.groups[list].empty()) {
                          shader.bind_set(commands, commands.set(encoding));
-                         dispatch_groups<plan::ResolveFieldPush>(shader, commands, context.batch,
-                                                                 list, sign_mask(sign));
+                         dispatch_groups<shaders::ResolveFieldPush>(shader, commands, context.batch,
+                                                                    list, sign_mask(sign));
                      }
                  }
              });
@@ -130,9 +130,9 @@ void Resolve::field_points(DrawGraph& graph, graph::Handle input, FieldImages im
     add_pass(graph, "resolve field points", field_points_, bound,
              [](const ComputeShader& shader, const graph::PassCommands& commands,
                 const DrawContext& context) {
-                 for (const plan::FieldPointRun& run : context.batch.field_point_runs) {
+                 for (const device_input::FieldPointRun& run : context.batch.field_point_runs) {
                      shader.bind_set(commands, commands.set(static_cast<std::size_t>(run.sign)));
-                     shader.dispatch_elements<plan::ResolveFieldPointsPush>(
+                     shader.dispatch_elements<shaders::ResolveFieldPointsPush>(
                          commands, run.first, run.first + run.count, sign_mask(run.sign),
                          run.first_word, run.first, run.parts.words_per_point,
                          run.parts.cells_per_point);
@@ -159,8 +159,9 @@ void Resolve::samples(DrawGraph& graph, graph::Handle input, graph::Handle hits,
               {3, samples, write, passes::sample_parts::samples}},
              [strategy](const ComputeShader& shader, VkCommandBuffer commands,
                         const DrawContext& context) {
-                 dispatch_groups<plan::CollectPush>(shader, commands, context.batch,
-                                                    group_list(strategy), context.sample_capacity);
+                 dispatch_groups<shaders::CollectPush>(shader, commands, context.batch,
+                                                       group_list(strategy),
+                                                       context.sample_capacity);
              });
 }
 

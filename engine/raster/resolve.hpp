@@ -32,18 +32,18 @@ public:
 
     /// Point depth (section 2.2.4 of the paper): for every point of the tile batch, whether it lies
     /// inside B, which of B's edges is nearest, and whether that is the only answer within the
-    /// margin. Writes one word per point (plan::point_inside and the other flags).
+    /// margin. Writes one word per point (shaders::point_inside and the other flags).
     void points(DrawGraph& graph, graph::Handle input, graph::Handle results,
                 FieldImages::Pair images) const;
 
     /// The requested outputs at every cell of the field tiles (section 2.2.2), tile after tile: the
     /// signed distance at its centre, in cells, and the nearest of B's edges (a word of
-    /// plan::point_inside and the other flags).
+    /// shaders::point_inside and the other flags).
     void field_cells(DrawGraph& graph, graph::Handle input, FieldImages images,
                      graph::Handle& field) const;
     /// The cells from which a field is reconstructed at points (section 2.2.2: only the requested
     /// pixels are read back), and the feature nearest to each point, point after point: a few words
-    /// each (plan::FieldParts).
+    /// each (queries::FieldParts).
     void field_points(DrawGraph& graph, graph::Handle input, FieldImages images,
                       graph::Handle& field) const;
     /// Copies blended gradients: whole tiles, and the four cells around each point.
@@ -51,9 +51,10 @@ public:
                    graph::Handle& field) const;
 
     /// Collects the samples of the overlap tiles of one strategy (the paper's search through the
-    /// image, section 2.2.1). Writes a summary per tile (plan::TileSummary); for tiles that list
-    /// their samples, the number of samples and as many as there is space for (plan::SampleData),
-    /// in any order. `samples`: summaries, count and list, which the host has initialised.
+    /// image, section 2.2.1). Writes a summary per tile (shaders::TileSummary); for tiles that list
+    /// their samples, the number of samples and as many as there is space for
+    /// (shaders::SampleData), in any order. `samples`: summaries, count and list, which the host
+    /// has initialised.
     void samples(DrawGraph& graph, graph::Handle input, graph::Handle hits, graph::Handle& samples,
                  IntersectionStrategy strategy) const;
 

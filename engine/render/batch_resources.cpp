@@ -30,7 +30,7 @@ BatchResources::~BatchResources() {
     }
 }
 
-void BatchResources::prepare(const plan::ResidentOutputs& resident, SampleRoom room) {
+void BatchResources::prepare(const device_input::ResidentOutputs& resident, SampleRoom room) {
     is_searching_ = false;
     has_resident_outputs_ = !resident.empty();
     if (has_resident_outputs_) {
@@ -85,11 +85,12 @@ void BatchResources::reserve_timestamps() {
     timestamps_.reserve(passes_);
 }
 
-void BatchResources::upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+void BatchResources::upload_search(const device_input::SearchShapes& shapes,
+                                   const device_input::GivenPairs& pairs,
                                    const PairCounts& expected) {
     if (search_ == nullptr) {
         search_ = std::make_unique<GivenSearch>(*device_, *layout_,
-                                                pipelines_->pair_search(plan::given_pairs));
+                                                pipelines_->pair_search(device_input::given_pairs));
     }
     search_->upload(shapes, pairs, expected);
     if (has_resident_outputs_) {

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <engine/device_input/resident_outputs.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bound_resources.hpp>
 #include <engine/graph/compute_layout.hpp>
-#include <engine/plan/resident_outputs.hpp>
 #include <engine/render/computed_tiles.hpp>
 #include <engine/render/given_search.hpp>
 #include <engine/render/pipeline_set.hpp>
@@ -52,15 +52,15 @@ public:
     /// Uploads the tile batches and the tables of their resident outputs, which have to stay
     /// unchanged until the next upload, and selects all for the next submission. No commands of
     /// this object may be in flight.
-    void prepare(const plan::ResidentOutputs& resident, SampleRoom room);
+    void prepare(const device_input::ResidentOutputs& resident, SampleRoom room);
     /// Selects what found more than it had memory for; false if there is nothing.
     [[nodiscard]] bool select_those_without_room();
     /// Lays out the outputs of what is selected and binds what the passes use.
     void lay_out_output();
 
     /// Uploads the pairs that are searched, after the tile batches; see GivenSearch::upload().
-    void upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
-                       const PairCounts& expected);
+    void upload_search(const device_input::SearchShapes& shapes,
+                       const device_input::GivenPairs& pairs, const PairCounts& expected);
     /// The search of the commands; null if they have none.
     [[nodiscard]] const GivenSearch* running_search() const {
         return is_searching_ ? search_.get() : nullptr;

@@ -32,8 +32,8 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
       long_searches_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                      "nearfield long searches") {}
 
-void ComputeBuffers::upload(const plan::ComputeBatch& batch) {
-    const plan::ComputeWork& work = batch.work;
+void ComputeBuffers::upload(const device_input::ComputeBatch& batch) {
+    const device_input::ComputeWork& work = batch.work;
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
     require_range(*device_, scratch_bytes_, "the masks and lists");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
@@ -44,9 +44,9 @@ void ComputeBuffers::upload(const plan::ComputeBatch& batch) {
 }
 
 /// The shapes only if one of them changed.
-void ComputeBuffers::upload_shapes(const plan::ComputeWork& work) {
+void ComputeBuffers::upload_shapes(const device_input::ComputeWork& work) {
     const auto shapes = std::as_bytes(work.shapes->units());
-    const plan::FieldWork& fields = work.fields;
+    const device_input::FieldWork& fields = work.fields;
     shape_bytes_ = work.shape_bytes();
     shape_units_ = static_cast<std::uint32_t>(work.shapes->units().size());
     require_range(*device_, shape_bytes_, "the shapes");
@@ -66,7 +66,7 @@ void ComputeBuffers::empty_crowd() const {
     if (shape_bytes_ == 0) {
         return;
     }
-    const VkDispatchIndirectCommand none{0, plan::groups_per_block, 1};
+    const VkDispatchIndirectCommand none{0, shaders::groups_per_block, 1};
     std::memcpy(crowd_.data(), &none, sizeof(none));
     crowd_.flush();
     std::memset(long_searches_.data(), 0, sizeof(std::uint32_t));

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <engine/device_input/compute_batch_builder.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/graph/bound_resources.hpp>
-#include <engine/plan/compute_batch_builder.hpp>
 
 #include <cstdint>
 
@@ -25,7 +25,7 @@ public:
 
     /// Uploads a tile batch. Throws StatusException (too_large) if a part exceeds what a storage
     /// buffer of the device may hold.
-    void upload(const plan::ComputeBatch& batch);
+    void upload(const device_input::ComputeBatch& batch);
 
     /// Units of the shapes themselves, as uploaded: a later batch may have changed what is kept.
     [[nodiscard]] std::uint32_t shape_units() const { return shape_units_; }
@@ -40,7 +40,7 @@ public:
     void bind(const ComputeHandles& handles, graph::BoundResources& resources) const;
 
 private:
-    void upload_shapes(const plan::ComputeWork& work);
+    void upload_shapes(const device_input::ComputeWork& work);
 
     const gpu::Device* device_;
     gpu::MappedBuffer scratch_;

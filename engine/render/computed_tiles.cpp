@@ -7,7 +7,7 @@ namespace nearfield::render {
 
 using graph::Handle;
 
-ComputeKey::ComputeKey(const plan::ComputeBatch& batch)
+ComputeKey::ComputeKey(const device_input::ComputeBatch& batch)
     : field_values(batch.work.fields.values),
       field_features(batch.work.fields.features),
       field_points(!batch.work.fields.points.empty()),
@@ -55,7 +55,8 @@ std::unique_ptr<TileWork> ComputeTechnique::make_work() {
     return std::make_unique<ComputedTiles>(*device_, *layout_, *this);
 }
 
-std::shared_ptr<const ComputeGraph> ComputeTechnique::graph_for(const plan::ComputeBatch& batch) {
+std::shared_ptr<const ComputeGraph> ComputeTechnique::graph_for(
+    const device_input::ComputeBatch& batch) {
     const ComputeKey needs(batch);
     for (const auto& graph : graphs_) {
         if (graph->needs() == needs) {
@@ -72,7 +73,7 @@ ComputedTiles::ComputedTiles(const gpu::Device& device, const graph::ComputeLayo
       words_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
              gpu::Direction::none, "nearfield resident words") {}
 
-void ComputedTiles::build(const plan::Plan& plan) {
+void ComputedTiles::build(const device_input::Plan& plan) {
     set_count(technique_->builder().build(plan, device().limits().maxStorageBufferRange, batches_));
 }
 
@@ -98,12 +99,12 @@ void ComputedTiles::lay_out_output(graph::DescriptorUpdates& updates) {
 }
 
 void ComputedTiles::find_copies(std::uint32_t number) {
-    const plan::ComputeBatch& batch = batches_[number];
+    const device_input::ComputeBatch& batch = batches_[number];
     if (!batch.resident) {
         return;
     }
     const OutputParts& parts = output(number);
-    for (const plan::WordRange& range : batch.field_read_back) {
+    for (const device_input::WordRange& range : batch.field_read_back) {
         const std::uint64_t first = parts.field + range.first * sizeof(std::uint32_t);
         copies_.push_back({first, first, range.count * sizeof(std::uint32_t)});
     }

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <engine/device_input/compute_batch_builder.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/graph/bound_resources.hpp>
-#include <engine/plan/compute_batch_builder.hpp>
 #include <engine/render/compute_buffers.hpp>
 #include <engine/render/pipeline_set.hpp>
 #include <engine/render/resident_buffers.hpp>
@@ -27,7 +27,7 @@ struct ComputeKey {
     bool overlap = false;
     bool keeps_hits = false;  ///< another pass reads the masks of some overlap
 
-    explicit ComputeKey(const plan::ComputeBatch& batch);
+    explicit ComputeKey(const device_input::ComputeBatch& batch);
     [[nodiscard]] bool fields() const { return field_values || field_features; }
 
     friend bool operator==(const ComputeKey&, const ComputeKey&) = default;
@@ -65,16 +65,17 @@ public:
         graphs_.clear();
     }
 
-    [[nodiscard]] std::shared_ptr<const ComputeGraph> graph_for(const plan::ComputeBatch& batch);
+    [[nodiscard]] std::shared_ptr<const ComputeGraph> graph_for(
+        const device_input::ComputeBatch& batch);
     [[nodiscard]] const PipelineSet& passes() const { return *passes_; }
-    [[nodiscard]] plan::ComputeBatchBuilder& builder() { return builder_; }
+    [[nodiscard]] device_input::ComputeBatchBuilder& builder() { return builder_; }
 
 private:
     const gpu::Device* device_;
     const graph::ComputeLayout* layout_;
     const PipelineSet* passes_;
     std::vector<std::shared_ptr<const ComputeGraph>> graphs_;
-    plan::ComputeBatchBuilder builder_;
+    device_input::ComputeBatchBuilder builder_;
 };
 
 /// The tile batches of technique compute in a batch in flight.
@@ -83,11 +84,11 @@ public:
     ComputedTiles(const gpu::Device& device, const graph::ComputeLayout& layout,
                   ComputeTechnique& technique);
 
-    void build(const plan::Plan& plan) override;
-    [[nodiscard]] const plan::TileBatch& batch(std::uint32_t number) const override {
+    void build(const device_input::Plan& plan) override;
+    [[nodiscard]] const device_input::TileBatch& batch(std::uint32_t number) const override {
         return batches_[number];
     }
-    [[nodiscard]] std::span<const plan::ComputeBatch> batches() const {
+    [[nodiscard]] std::span<const device_input::ComputeBatch> batches() const {
         return std::span(batches_).first(count());
     }
     void lay_out_output(graph::DescriptorUpdates& updates) override;
@@ -120,7 +121,7 @@ private:
     void bind_copies();
 
     ComputeTechnique* technique_;
-    std::vector<plan::ComputeBatch> batches_;  // the first count() of them
+    std::vector<device_input::ComputeBatch> batches_;  // the first count() of them
     /// By tile batch. Each has scratch memory of its own, since no barrier separates the tile
     /// batches of a submission.
     std::vector<std::unique_ptr<ComputeBuffers>> buffers_;

@@ -20,18 +20,18 @@ std::uint32_t rounded_up(double count) {
 }
 
 /// How much a search of these can count.
-PairCounts most_of(const plan::GivenPairs& pairs) {
+PairCounts most_of(const device_input::GivenPairs& pairs) {
     const auto count = static_cast<std::uint32_t>(pairs.directions.size());
     // The threads of each direction, and of each of its blocks of edges, may have room for a few
     // points more.
-    const double parts = count + pairs.max_edges / plan::search_block + 1.0;
-    const double padding = (plan::points_per_thread - 1.0) * parts;
+    const double parts = count + pairs.max_edges / shaders::search_block + 1.0;
+    const double padding = (shaders::points_per_thread - 1.0) * parts;
     PairCounts most{};
-    most[plan::pair_total] = most[plan::row_total] = count;
-    most[plan::item_total] = pairs.items;
-    most[plan::edge_total] = rounded_up(pairs.max_edges);
-    most[plan::point_total] = rounded_up(pairs.max_points + padding);
-    most[plan::record_total] = rounded_up(pairs.max_points);
+    most[shaders::pair_total] = most[shaders::row_total] = count;
+    most[shaders::item_total] = pairs.items;
+    most[shaders::edge_total] = rounded_up(pairs.max_edges);
+    most[shaders::point_total] = rounded_up(pairs.max_points + padding);
+    most[shaders::record_total] = rounded_up(pairs.max_points);
     return most;
 }
 
@@ -43,10 +43,10 @@ GivenSearch::GivenSearch(const gpu::Device& device, const graph::ComputeLayout& 
       shapes_(device),
       pairs_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
              "nearfield given pairs"),
-      memory_(device, layout, search, plan::given_pairs, false) {}
+      memory_(device, layout, search, device_input::given_pairs, false) {}
 
-void GivenSearch::upload(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
-                         const PairCounts& expected) {
+void GivenSearch::upload(const device_input::SearchShapes& shapes,
+                         const device_input::GivenPairs& pairs, const PairCounts& expected) {
     const auto directions = std::as_bytes(std::span(pairs.directions));
     pair_bytes_ = directions.size();
     require_range(*device_, std::max<std::uint64_t>(pair_bytes_, shapes.units().size_bytes()),
@@ -57,8 +57,8 @@ void GivenSearch::upload(const plan::SearchShapes& shapes, const plan::GivenPair
     pairs_.flush();
     most_ = most_of(pairs);
     PairCounts known{};
-    known[plan::pair_total] = most_[plan::pair_total];
-    known[plan::item_total] = most_[plan::item_total];
+    known[shaders::pair_total] = most_[shaders::pair_total];
+    known[shaders::item_total] = most_[shaders::item_total];
     PairCounts room{};
     for (std::size_t stage = 0; stage < room.size(); ++stage) {
         room[stage] = std::min(most_[stage], expected[stage]);

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <engine/device_input/point_search.hpp>
+#include <engine/device_input/search_shapes.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/graph/compute_layout.hpp>
-#include <engine/plan/point_search.hpp>
-#include <engine/plan/search_shapes.hpp>
 #include <engine/render/search_memory.hpp>
 #include <passes/pair_search.hpp>
 
@@ -23,7 +23,7 @@ public:
     /// Uploads pairs, of which there are some, and makes room for `expected` elements, or for as
     /// many as there can be. The device must not be using the memory. Throws StatusException
     /// (too_large) if the device cannot hold them.
-    void upload(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
+    void upload(const device_input::SearchShapes& shapes, const device_input::GivenPairs& pairs,
                 const PairCounts& expected);
     /// Call once the device is done. Throws StatusException (device_error) if it counted more than
     /// there can be.

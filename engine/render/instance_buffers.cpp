@@ -6,8 +6,8 @@ namespace nearfield::render {
 namespace {
 
 std::uint64_t bytes_of_instances(std::uint32_t instances) {
-    return sizeof(plan::PairQueryData) +
-           instances * (sizeof(plan::SearchInstanceData) + 2 * sizeof(std::uint32_t));
+    return sizeof(shaders::PairQueryData) +
+           instances * (sizeof(shaders::SearchInstanceData) + 2 * sizeof(std::uint32_t));
 }
 
 }  // namespace
@@ -15,7 +15,7 @@ std::uint64_t bytes_of_instances(std::uint32_t instances) {
 std::uint64_t units_of_boxes(std::uint32_t instances) {
     std::uint64_t boxes = 0;
     std::uint64_t level = instances;
-    for (std::uint32_t i = 0; i < plan::instance_levels; ++i) {
+    for (std::uint32_t i = 0; i < shaders::instance_levels; ++i) {
         boxes += level;
         level = (level + 7) / 8;
     }
@@ -41,21 +41,22 @@ void InstanceBuffers::reserve(std::uint32_t count) {
     }
 }
 
-void InstanceBuffers::set_query(plan::PairQueryData query) {
-    query.order = 4 * (plan::units_of_query + plan::units_of_instance * room_);
+void InstanceBuffers::set_query(shaders::PairQueryData query) {
+    query.order = 4 * (shaders::units_of_query + shaders::units_of_instance * room_);
     std::memcpy(instances_.data(), &query, sizeof(query));
 }
 
 void InstanceBuffers::set_order(std::span<const std::uint32_t> order) {
-    auto* const words = reinterpret_cast<std::uint32_t*>(
-        instances_.data() + sizeof(plan::PairQueryData) + room_ * sizeof(plan::SearchInstanceData));
+    auto* const words =
+        reinterpret_cast<std::uint32_t*>(instances_.data() + sizeof(shaders::PairQueryData) +
+                                         room_ * sizeof(shaders::SearchInstanceData));
     for (std::uint32_t place = 0; place < order.size(); ++place) {
         words[place] = order[place];
         words[order.size() + order[place]] = place;
     }
 }
 
-void InstanceBuffers::upload(const plan::SearchShapes& shapes) {
+void InstanceBuffers::upload(const device_input::SearchShapes& shapes) {
     if (shapes_.upload(shapes)) {
         ++revision_;
     }

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <engine/device_input/search_shapes.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/plan/search_shapes.hpp>
 #include <engine/render/search_memory.hpp>
 
 #include <shaders/pairs.h>
@@ -25,15 +25,15 @@ public:
     /// Makes room for so many instances, all of which have to be written, with query and order.
     void reserve(std::uint32_t count);
     /// What holds for all of them; the member `order` is set by this class.
-    void set_query(plan::PairQueryData query);
-    void set(std::uint32_t number, const plan::SearchInstanceData& data) {
-        std::memcpy(instances_.data() + sizeof(plan::PairQueryData) + number * sizeof(data), &data,
-                    sizeof(data));
+    void set_query(shaders::PairQueryData query);
+    void set(std::uint32_t number, const shaders::SearchInstanceData& data) {
+        std::memcpy(instances_.data() + sizeof(shaders::PairQueryData) + number * sizeof(data),
+                    &data, sizeof(data));
     }
     /// The instances in the order of the hierarchy: a permutation of their numbers.
     void set_order(std::span<const std::uint32_t> order);
     /// Takes shapes that have changed to the device, and what was set.
-    void upload(const plan::SearchShapes& shapes);
+    void upload(const device_input::SearchShapes& shapes);
 
     /// Differs if buffers or sizes are others than before.
     [[nodiscard]] std::uint32_t revision() const { return revision_; }

@@ -12,7 +12,7 @@ namespace {
 constexpr VkBufferUsageFlags output_usage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-constexpr std::uint64_t bytes_between_headers = 4 * std::uint64_t{plan::words_between_headers};
+constexpr std::uint64_t bytes_between_headers = 4 * std::uint64_t{shaders::words_between_headers};
 static_assert(sizeof(HeaderData) <= bytes_between_headers);
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr std::uint32_t not_counted = UINT32_MAX;
 
 PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
                                      const passes::PairSearch& passes,
-                                     const plan::PairQuestion& question, bool timestamps)
+                                     const device_input::PairQuestion& question, bool timestamps)
     : device_(&device),
       submission_(device),
       timestamps_(device, 0, timestamps),
@@ -46,8 +46,8 @@ void PairSearchBuffers::lay_out() {
         std::uint32_t records = 0;
         for (std::size_t i = 0; i < memory_.parts(); ++i) {
             const auto& room = memory_.part(i).input().capacities;
-            rows += room[plan::row_total];
-            records += room[plan::record_total];
+            rows += room[shaders::row_total];
+            records += room[shaders::record_total];
         }
         outputs_.reserve(rows, records);
     }
@@ -117,8 +117,9 @@ void PairSearchBuffers::submit(bool takes_poses, Timings& timings) {
 /// Whether the device has executed the commands that were recorded for the host.
 bool PairSearchBuffers::were_executed() const {
     const auto counts_of_parts = memory_.counts();
-    return std::none_of(counts_of_parts.begin(), counts_of_parts.end(),
-                        [](const auto& counts) { return counts[plan::pair_total] == not_counted; });
+    return std::none_of(counts_of_parts.begin(), counts_of_parts.end(), [](const auto& counts) {
+        return counts[shaders::pair_total] == not_counted;
+    });
 }
 
 /// What there was room for.
@@ -136,7 +137,8 @@ void PairSearchBuffers::grow() {
     is_laid_out_ = false;
 }
 
-void PairSearchBuffers::upload(const plan::SearchShapes& shapes, std::uint64_t memory_limit) {
+void PairSearchBuffers::upload(const device_input::SearchShapes& shapes,
+                               std::uint64_t memory_limit) {
     memory_limit_ = memory_limit;
     const bool had_results = std::exchange(has_results_, false);
     if (std::exchange(is_for_host_, false)) {
@@ -155,7 +157,7 @@ void PairSearchBuffers::upload(const plan::SearchShapes& shapes, std::uint64_t m
     }
 }
 
-void PairSearchBuffers::begin(const plan::SearchShapes& shapes, std::uint64_t memory_limit,
+void PairSearchBuffers::begin(const device_input::SearchShapes& shapes, std::uint64_t memory_limit,
                               Timings& timings) {
     upload(shapes, memory_limit);
     submit(poses_.is_set(), timings);
@@ -179,7 +181,7 @@ void PairSearchBuffers::finish(Timings& timings) {
     read_results();
 }
 
-void PairSearchBuffers::record(VkCommandBuffer commands, const plan::SearchShapes& shapes,
+void PairSearchBuffers::record(VkCommandBuffer commands, const device_input::SearchShapes& shapes,
                                std::uint64_t memory_limit, Timings& timings) {
     upload(shapes, memory_limit);
     const Stopwatch start;

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <engine/device_input/pair_question.hpp>
+#include <engine/device_input/search_shapes.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/compute_layout.hpp>
-#include <engine/plan/pair_question.hpp>
-#include <engine/plan/search_shapes.hpp>
 #include <engine/render/instance_buffers.hpp>
 #include <engine/render/pair_outputs.hpp>
 #include <engine/render/pose_source.hpp>
@@ -26,7 +26,7 @@ class PairSearchBuffers {
 public:
     /// The passes must stay.
     PairSearchBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
-                      const passes::PairSearch& passes, const plan::PairQuestion& question,
+                      const passes::PairSearch& passes, const device_input::PairQuestion& question,
                       bool timestamps);
     /// Waits for the device if it is still working.
     ~PairSearchBuffers();
@@ -45,7 +45,8 @@ public:
     /// Lets the device find all pairs. Nothing may be changed until finish(). Throws
     /// StatusException, (too_large) if the device cannot hold those of one instance, or they need
     /// more bytes than `memory_limit`. Adds the time of recording and submission.
-    void begin(const plan::SearchShapes& shapes, std::uint64_t memory_limit, Timings& timings);
+    void begin(const device_input::SearchShapes& shapes, std::uint64_t memory_limit,
+               Timings& timings);
     /// Whether finish() need not wait for what was begun.
     [[nodiscard]] bool is_done() const { return !is_submitted_ || submission_.is_done(); }
     /// Waits for what was begun; submits as often as it takes to have room for all. Throws as
@@ -54,7 +55,7 @@ public:
 
     /// In place of begin(): records the same into a command buffer of the host, which may submit it
     /// again and again. Throws as begin(); then nothing is recorded.
-    void record(VkCommandBuffer commands, const plan::SearchShapes& shapes,
+    void record(VkCommandBuffer commands, const device_input::SearchShapes& shapes,
                 std::uint64_t memory_limit, Timings& timings);
     /// In place of finish(), once the device is done, and as often as it is: reads what the last
     /// execution left. Throws StatusException: (not_executed) if there was none, (overflow) if it
@@ -71,14 +72,14 @@ public:
     /// The rows that the CPU has to decide, in ascending order.
     [[nodiscard]] std::span<const std::uint32_t> undecided() const { return memory_.undecided(); }
     /// In ascending order of the instances.
-    [[nodiscard]] const plan::PairRowData& row(std::uint32_t number) const {
+    [[nodiscard]] const shaders::PairRowData& row(std::uint32_t number) const {
         const PairPartMemory& part = memory_.part_of_row(number);
         return part.row(number - part.first_row());
     }
     /// Those that a row names. Only if the host reads them.
-    [[nodiscard]] std::span<const plan::FoundPointData> records(std::uint32_t row,
-                                                                std::uint32_t first,
-                                                                std::uint32_t count) const {
+    [[nodiscard]] std::span<const shaders::FoundPointData> records(std::uint32_t row,
+                                                                   std::uint32_t first,
+                                                                   std::uint32_t count) const {
         return {memory_.part_of_row(row).records() + first, count};
     }
 
@@ -86,7 +87,7 @@ private:
     [[nodiscard]] PairLimits limits() const;
     [[nodiscard]] SearchInput input() const;
     void lay_out();
-    void upload(const plan::SearchShapes& shapes, std::uint64_t memory_limit);
+    void upload(const device_input::SearchShapes& shapes, std::uint64_t memory_limit);
     // `takes_poses`: of the host; otherwise the instances are placed already.
     // `pairs`: see SearchMemory::clear_counts.
     void prepare(bool takes_poses, std::uint32_t pairs);

@@ -8,11 +8,11 @@ namespace nearfield::render {
 ExportPipelines::ExportPipelines(const gpu::Device& device, const graph::ComputeLayout& layout)
     : copy_back(device), field(device, layout), records(device, layout), samples(device, layout) {}
 
-const passes::PairSearch& PipelineSet::pair_search(const plan::PairSearchKind& kind) const {
-    const auto found =
-        std::find(plan::pair_search_kinds.begin(), plan::pair_search_kinds.end(), kind);
+const passes::PairSearch& PipelineSet::pair_search(const device_input::PairSearchKind& kind) const {
+    const auto found = std::find(device_input::pair_search_kinds.begin(),
+                                 device_input::pair_search_kinds.end(), kind);
     auto& search =
-        pair_searches_[static_cast<std::size_t>(found - plan::pair_search_kinds.begin())];
+        pair_searches_[static_cast<std::size_t>(found - device_input::pair_search_kinds.begin())];
     if (search) {
         return *search;
     }
@@ -21,7 +21,7 @@ const passes::PairSearch& PipelineSet::pair_search(const plan::PairSearchKind& k
     return made(search, &made(search_shaders_), finding, kind);
 }
 
-const passes::WorldQueries& PipelineSet::world_queries(plan::WorldQuestion question) const {
+const passes::WorldQueries& PipelineSet::world_queries(device_input::WorldQuestion question) const {
     return made(world_queries_[static_cast<std::size_t>(question)], &instance_shaders(), question);
 }
 
@@ -32,11 +32,11 @@ void PipelineSet::make(const DeviceTechniques& techniques) const {
         static_cast<void>(fields());
         static_cast<void>(pair_poses());
         static_cast<void>(export_pairs());
-        for (const plan::PairSearchKind& kind : plan::pair_search_kinds) {
+        for (const device_input::PairSearchKind& kind : device_input::pair_search_kinds) {
             static_cast<void>(pair_search(kind));
         }
-        for (std::size_t question = 0; question < plan::world_questions; ++question) {
-            static_cast<void>(world_queries(static_cast<plan::WorldQuestion>(question)));
+        for (std::size_t question = 0; question < device_input::world_questions; ++question) {
+            static_cast<void>(world_queries(static_cast<device_input::WorldQuestion>(question)));
         }
     }
 }

@@ -41,9 +41,11 @@ public:
     [[nodiscard]] const passes::Masks& masks() const { return made(masks_); }
     [[nodiscard]] const passes::Fields& fields() const { return made(fields_); }
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return made(pair_poses_); }
-    [[nodiscard]] const passes::PairSearch& pair_search(const plan::PairSearchKind& kind) const;
+    [[nodiscard]] const passes::PairSearch& pair_search(
+        const device_input::PairSearchKind& kind) const;
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return made(export_pairs_); }
-    [[nodiscard]] const passes::WorldQueries& world_queries(plan::WorldQuestion question) const;
+    [[nodiscard]] const passes::WorldQueries& world_queries(
+        device_input::WorldQuestion question) const;
 
     /// The time that making them has taken.
     [[nodiscard]] double milliseconds() const { return milliseconds_; }
@@ -74,9 +76,10 @@ private:
     mutable std::optional<passes::InstanceShaders> instance_shaders_;
     mutable std::optional<passes::SearchShaders> search_shaders_;
     mutable std::optional<passes::FoundPairShaders> found_pair_shaders_;
-    mutable std::array<std::optional<passes::PairSearch>, plan::pair_search_kinds.size()>
+    mutable std::array<std::optional<passes::PairSearch>, device_input::pair_search_kinds.size()>
         pair_searches_;
-    mutable std::array<std::optional<passes::WorldQueries>, plan::world_questions> world_queries_;
+    mutable std::array<std::optional<passes::WorldQueries>, device_input::world_questions>
+        world_queries_;
 };
 
 }  // namespace nearfield::render

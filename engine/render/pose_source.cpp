@@ -1,5 +1,5 @@
 #include <engine/base/unique_numbers.hpp>
-#include <engine/plan/check_target.hpp>
+#include <engine/device_input/check_target.hpp>
 #include <engine/render/pose_source.hpp>
 
 #include <shaders/pairs.h>
@@ -29,7 +29,7 @@ PoseSource::PoseSource(const gpu::Device& device, const graph::ComputeLayout& la
 
 void PoseSource::set(const passes::PairPoses& passes, const DevicePoses& poses,
                      std::uint32_t elements, double farthest) {
-    const std::uint64_t bytes = plan::bytes_of_poses(poses, elements);
+    const std::uint64_t bytes = device_input::bytes_of_poses(poses, elements);
     if (passes_ == &passes && poses == poses_ && bytes == bytes_) {
         return;
     }
@@ -65,9 +65,9 @@ void PoseSource::bind(const SearchInput& input) {
 }
 
 std::optional<std::uint32_t> PoseSource::unusable() const {
-    std::uint32_t first = plan::no_instance;
+    std::uint32_t first = shaders::no_instance;
     std::memcpy(&first, taken_.data(), sizeof(first));
-    return first == plan::no_instance ? std::nullopt : std::optional(first);
+    return first == shaders::no_instance ? std::nullopt : std::optional(first);
 }
 
 std::array<double, 4> PoseSource::pose(std::uint32_t instance) const {

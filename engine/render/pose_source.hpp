@@ -56,7 +56,7 @@ private:
     const passes::PairPoses* passes_of_resources_ = nullptr;
     DevicePoses poses_;
     std::uint64_t bytes_ = 0;  // of the host's buffer
-    plan::PosePush push_{};
+    shaders::PosePush push_{};
     std::uint32_t revision_ = 0;
 };
 

@@ -36,19 +36,21 @@ std::unique_ptr<BatchResources> Renderer::make_resources() {
                                             timestamps_);
 }
 
-std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQuestion& question) {
+std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(
+    const device_input::PairQuestion& question) {
     return std::make_unique<PairSearchBuffers>(
         *device_, layout_, passes_.pair_search(question.kind()), question, timestamps_);
 }
 
 std::unique_ptr<WorldQueryBuffers> Renderer::make_world_query_buffers(
-    plan::WorldQuestion question) {
+    device_input::WorldQuestion question) {
     return std::make_unique<WorldQueryBuffers>(*device_, layout_, passes_.world_queries(question),
                                                question, timestamps_);
 }
 
-void Renderer::prepare(const plan::ResidentOutputs& resident, const plan::SearchShapes& shapes,
-                       const plan::GivenPairs& pairs, SampleRoom room, BatchResources& slot,
+void Renderer::prepare(const device_input::ResidentOutputs& resident,
+                       const device_input::SearchShapes& shapes,
+                       const device_input::GivenPairs& pairs, SampleRoom room, BatchResources& slot,
                        Timings& timings) {
     const Stopwatch start;
     const double made = pipeline_milliseconds();
@@ -58,7 +60,7 @@ void Renderer::prepare(const plan::ResidentOutputs& resident, const plan::Search
     if (!pairs.directions.empty()) {
         // What stays on the device is not written again with more room.
         upload_search(shapes, pairs, resident.records.empty() ? room : SampleRoom::all, slot);
-        note_search(passes_.pair_search(plan::given_pairs), "search for points");
+        note_search(passes_.pair_search(device_input::given_pairs), "search for points");
     }
     if (!resident.fields.empty()) {
         last_graphs_.push_back({&passes_.exports().field.graph, "resident fields"});
@@ -72,13 +74,14 @@ void Renderer::prepare(const plan::ResidentOutputs& resident, const plan::Search
     timings.plan += start.milliseconds() - (pipeline_milliseconds() - made);
 }
 
-void Renderer::upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
-                             SampleRoom room, BatchResources& slot) {
+void Renderer::upload_search(const device_input::SearchShapes& shapes,
+                             const device_input::GivenPairs& pairs, SampleRoom room,
+                             BatchResources& slot) {
     PairCounts expected{};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         expected[i] = room == SampleRoom::all ? UINT32_MAX : std::max(min_expected, max_counts_[i]);
     }
-    expected[plan::row_total] = UINT32_MAX;  // of all pairs
+    expected[shaders::row_total] = UINT32_MAX;  // of all pairs
     slot.upload_search(shapes, pairs, expected);
 }
 
@@ -170,7 +173,8 @@ void Renderer::note_search(const passes::PairSearch& search, const char* title) 
     last_graphs_.push_back({&search.part().graph, title});
 }
 
-void Renderer::note_pairs(const plan::PairSearchKind& kind, bool takes_poses, bool is_resident) {
+void Renderer::note_pairs(const device_input::PairSearchKind& kind, bool takes_poses,
+                          bool is_resident) {
     forget_last_graphs();
     if (takes_poses) {
         last_graphs_.push_back({&pair_poses().graph, "poses of pairs"});
@@ -181,7 +185,7 @@ void Renderer::note_pairs(const plan::PairSearchKind& kind, bool takes_poses, bo
     }
 }
 
-void Renderer::note_world_queries(plan::WorldQuestion question) {
+void Renderer::note_world_queries(device_input::WorldQuestion question) {
     forget_last_graphs();
     last_graphs_.push_back({&passes_.world_queries(question).graph, "questions about a world"});
 }

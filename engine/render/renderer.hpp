@@ -43,24 +43,24 @@ public:
     [[nodiscard]] const char* gradient_format() const;
 
     /// Plans a query about points of technique raster, which there is.
-    void plan_drawn_points(plan::CurrentQuery& current, AnyResult& result) {
+    void plan_drawn_points(device_input::CurrentQuery& current, AnyResult& result) {
         drawn_->plan_points(current, result);
     }
     /// Resources for a batch of this renderer, which must outlive them.
     [[nodiscard]] std::unique_ptr<BatchResources> make_resources();
     /// Memory for searches for all pairs, likewise.
     [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(
-        const plan::PairQuestion& question);
+        const device_input::PairQuestion& question);
     /// The passes before such searches that take poses of the host, and those after them whose
     /// results stay on the device.
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return passes_.pair_poses(); }
     [[nodiscard]] const passes::ExportPairs& export_pairs() const { return passes_.export_pairs(); }
     /// Says that such a search is recorded, for print().
-    void note_pairs(const plan::PairSearchKind& kind, bool takes_poses, bool is_resident);
+    void note_pairs(const device_input::PairSearchKind& kind, bool takes_poses, bool is_resident);
     /// Memory for many questions about a world, likewise; and says that they are recorded.
     [[nodiscard]] std::unique_ptr<WorldQueryBuffers> make_world_query_buffers(
-        plan::WorldQuestion question);
-    void note_world_queries(plan::WorldQuestion question);
+        device_input::WorldQuestion question);
+    void note_world_queries(device_input::WorldQuestion question);
     /// The time that making pipelines has taken, which is in no other time.
     [[nodiscard]] double pipeline_milliseconds() const {
         return passes_.milliseconds() + (drawn_ == nullptr ? 0.0 : drawn_->pipeline_milliseconds());
@@ -79,9 +79,9 @@ public:
     /// results; adds to the time of planning. All of it has to stay unchanged, and `slot`
     /// untouched, until the device is done. Also uploads the pairs that are searched, if any, of
     /// which nothing is needed afterwards. `shapes`: those that they name.
-    void prepare(const plan::ResidentOutputs& resident, const plan::SearchShapes& shapes,
-                 const plan::GivenPairs& pairs, SampleRoom room, BatchResources& slot,
-                 Timings& timings);
+    void prepare(const device_input::ResidentOutputs& resident,
+                 const device_input::SearchShapes& shapes, const device_input::GivenPairs& pairs,
+                 SampleRoom room, BatchResources& slot, Timings& timings);
     /// Records the prepared tile batches and submits them; adds to the time of recording.
     void submit(BatchResources& slot, const Submission& order, Timings& timings);
     /// Records the prepared tile batches into a command buffer of the host, followed by a stamp
@@ -107,8 +107,9 @@ private:
     void record(BatchResources& slot, VkCommandBuffer commands);
     void forget_last_graphs();
     void note_search(const passes::PairSearch& search, const char* title);
-    void upload_search(const plan::SearchShapes& shapes, const plan::GivenPairs& pairs,
-                       SampleRoom room, BatchResources& slot);
+    void upload_search(const device_input::SearchShapes& shapes,
+                       const device_input::GivenPairs& pairs, SampleRoom room,
+                       BatchResources& slot);
     void record_search(const GivenSearch& search, BatchResources& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;

@@ -12,7 +12,7 @@
 namespace nearfield::render {
 namespace {
 
-static_assert(sizeof(HeaderData) <= plan::bytes_of_header);
+static_assert(sizeof(HeaderData) <= shaders::bytes_of_header);
 
 /// Makes sure that there are so many resources of a graph.
 template <class Graph>
@@ -68,7 +68,8 @@ ResidentBuffers::ResidentBuffers(const gpu::Device& device, const graph::Compute
                    VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
                gpu::Direction::none, "nearfield resident records", device.reader_families()) {}
 
-void ResidentBuffers::upload(const plan::ResidentOutputs& resident, const ExportPipelines& passes) {
+void ResidentBuffers::upload(const device_input::ResidentOutputs& resident,
+                             const ExportPipelines& passes) {
     resident_ = &resident;
     reserve_images();
     find_views();
@@ -86,7 +87,7 @@ void ResidentBuffers::reserve_images() {
                                gpu::KeptImage(*device_, VK_FORMAT_R32_UINT,
                                               "nearfield resident feature id " + number)});
         }
-        const plan::FieldOutputs& field = resident_->fields[i];
+        const device_input::FieldOutputs& field = resident_->fields[i];
         const VkExtent2D extent{field.width, field.height};
         // Of a field without features, an image that nothing is written to.
         const VkExtent2D of_features = field.has_features ? extent : VkExtent2D{1, 1};
@@ -132,7 +133,7 @@ void ResidentBuffers::grow(std::vector<Place>& places, std::size_t i, std::uint6
 void ResidentBuffers::lay_out_buffer() {
     const auto reserve = [this](const auto& outputs, const char* what, std::vector<Place>& places) {
         for (std::size_t i = 0; i < outputs.size(); ++i) {
-            const plan::BufferOutput& output = outputs[i];
+            const device_input::BufferOutput& output = outputs[i];
             require_range(*device_, output.bytes, what);
             // Nothing where the host has given a buffer.
             grow(places, i, output.target.buffer == VK_NULL_HANDLE ? output.bytes : 0,
@@ -160,7 +161,7 @@ void ResidentBuffers::move_places() {
     for (std::vector<Place>* const places : {&field_places_, &places_, &sample_places_}) {
         for (Place& each : *places) {
             each.records = place(each.record_bytes);
-            each.header = place(plan::bytes_of_header + each.block_bytes);
+            each.header = place(shaders::bytes_of_header + each.block_bytes);
         }
     }
     records_.reserve(end);
@@ -194,7 +195,7 @@ void ResidentBuffers::make_resources(const ExportPipelines& passes) {
 }
 
 gpu::BufferPart ResidentBuffers::range_of(const Place& place,
-                                          const plan::BufferOutput& output) const {
+                                          const device_input::BufferOutput& output) const {
     gpu::BufferPart own = records_.part(place.records, output.bytes);
     own.bytes = output.bytes;
     return range_of_target(output.target, own);
@@ -209,7 +210,7 @@ void ResidentBuffers::bind(std::span<const Words> words, const gpu::BufferPart& 
 void ResidentBuffers::bind_fields(std::span<const Words> words, const passes::ExportField& pass,
                                   graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
-        const plan::FieldOutputs& field = resident_->fields[i];
+        const device_input::FieldOutputs& field = resident_->fields[i];
         for (std::uint32_t part = 0; part < field.part_count; ++part) {
             const auto& output = resident_->field_parts[field.first_part + part];
             graph::BoundResources& resources = bound_fields_[i][part];
@@ -232,7 +233,7 @@ void ResidentBuffers::bind_records(const gpu::BufferPart& shapes, const gpu::Buf
                                    const passes::ExportRecords& passes,
                                    graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
-        const plan::RecordsOutput& records = resident_->records[i];
+        const device_input::RecordsOutput& records = resident_->records[i];
         const gpu::BufferPart range = range_of(places_[i], records);
         std::optional<graph::ExternalUses> uses = uses_of(records.target);
         for (std::uint32_t run = 0; run < records.run_count; ++run) {
@@ -254,7 +255,7 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::Buff
                                    const passes::ExportSamples& passes,
                                    graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
-        const plan::SamplesOutput& samples = resident_->samples[i];
+        const device_input::SamplesOutput& samples = resident_->samples[i];
         const gpu::BufferPart range = range_of(sample_places_[i], samples);
         const auto bind = [&](std::uint32_t run, const gpu::BufferPart& summaries,
                               const gpu::BufferPart& masks) {
@@ -282,12 +283,12 @@ std::size_t ResidentBuffers::count_passes(const ExportPipelines& passes) const {
            resident_->samples.size() * passes.samples.graph.passes().size();
 }
 
-void ResidentBuffers::record_records(const plan::SearchPush& part,
+void ResidentBuffers::record_records(const shaders::SearchPush& part,
                                      const passes::ExportRecords& passes, VkCommandBuffer commands,
                                      gpu::Timestamps& timestamps) const {
-    for (const plan::RecordsOutput& records : resident_->records) {
+    for (const device_input::RecordsOutput& records : resident_->records) {
         for (std::uint32_t i = records.first_run; i < records.first_run + records.run_count; ++i) {
-            const plan::RecordRunOutput& run = resident_->record_runs[i];
+            const device_input::RecordRunOutput& run = resident_->record_runs[i];
             if (run.direction < part.first_instance || run.direction >= part.end_instance) {
                 continue;
             }
@@ -297,7 +298,7 @@ void ResidentBuffers::record_records(const plan::SearchPush& part,
             input.push.capacity = records.capacity;
             input.push.frame_axis = run.frame_axis;
             input.push.frame_place = run.frame_place;
-            input.push.origin = plan::rounded(records.origin);
+            input.push.origin = device_input::rounded(records.origin);
             input.push.cell = static_cast<float>(records.cell);
             passes.graph.execute(commands, timestamps, bound_records_[i], input);
         }
@@ -310,14 +311,14 @@ void ResidentBuffers::record(const ExportPipelines& passes, VkCommandBuffer comm
         graph.execute(commands, timestamps, input.resources.front(), input);
     };
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
-        const plan::FieldOutputs& field = resident_->fields[i];
+        const device_input::FieldOutputs& field = resident_->fields[i];
         execute(passes.field.graph,
                 passes::ExportField::Input{
                     std::span(resident_->field_parts).subspan(field.first_part, field.part_count),
                     bound_fields_[i]});
     }
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
-        const plan::SamplesOutput& samples = resident_->samples[i];
+        const device_input::SamplesOutput& samples = resident_->samples[i];
         execute(passes.samples.graph,
                 passes::ExportSamples::Input{
                     &samples,
@@ -341,7 +342,7 @@ OutputState ResidentBuffers::state(const BufferTarget& target) const {
 }
 
 FieldOnDevice ResidentBuffers::field(std::size_t i) const {
-    const plan::FieldOutputs& field = resident_->fields[i];
+    const device_input::FieldOutputs& field = resident_->fields[i];
     const Images& images = images_[i];
     VkExtent2D extent{};
     const auto image = [&](const ImageTarget& target, const gpu::KeptImage& kept,
@@ -372,7 +373,7 @@ FieldOnDevice ResidentBuffers::field(std::size_t i) const {
 }
 
 PointsOnDevice ResidentBuffers::records(std::size_t i) const {
-    const plan::RecordsOutput& records = resident_->records[i];
+    const device_input::RecordsOutput& records = resident_->records[i];
     const gpu::BufferPart range = range_of(places_[i], records);
     const std::uint64_t max_size =
         sizeof(SummaryData) + std::uint64_t{records.max_capacity} * sizeof(PointData);
@@ -384,7 +385,7 @@ PointsOnDevice ResidentBuffers::records(std::size_t i) const {
 }
 
 SamplesOnDevice ResidentBuffers::samples(std::size_t i) const {
-    const plan::SamplesOutput& samples = resident_->samples[i];
+    const device_input::SamplesOutput& samples = resident_->samples[i];
     const gpu::BufferPart range = range_of(sample_places_[i], samples);
     return {range.buffer,
             range.offset,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <engine/device_input/resident_outputs.hpp>
+#include <engine/device_input/tile_batch.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/buffer_parts.hpp>
 #include <engine/gpu/device.hpp>
@@ -8,8 +10,6 @@
 #include <engine/graph/bound_resources.hpp>
 #include <engine/graph/compute_layout.hpp>
 #include <engine/graph/graph.hpp>
-#include <engine/plan/resident_outputs.hpp>
-#include <engine/plan/tile_batch.hpp>
 #include <engine/render/pipeline_set.hpp>
 #include <nearfield/on_device.hpp>
 
@@ -29,7 +29,7 @@ public:
     /// Allocates memory and uploads the tables. `resident` has to stay unchanged until the next
     /// upload. Must not be called while the device uses these buffers or the host uses the resident
     /// outputs.
-    void upload(const plan::ResidentOutputs& resident, const ExportPipelines& passes);
+    void upload(const device_input::ResidentOutputs& resident, const ExportPipelines& passes);
 
     /// Where a tile batch writes the words of its fields, the summaries of its tiles, and the masks
     /// of intersections.
@@ -46,7 +46,7 @@ public:
     [[nodiscard]] std::size_t count_passes(const ExportPipelines& passes) const;
     /// Records the passes of the records that a part of the search has found, once bound. `part`:
     /// its push constants.
-    void record_records(const plan::SearchPush& part, const passes::ExportRecords& passes,
+    void record_records(const shaders::SearchPush& part, const passes::ExportRecords& passes,
                         VkCommandBuffer commands, gpu::Timestamps& timestamps) const;
     /// Records the other passes, once bound.
     void record(const ExportPipelines& passes, VkCommandBuffer commands,
@@ -80,14 +80,14 @@ private:
     void find_views();
     /// Where the summary of records or samples and what follows it lie.
     [[nodiscard]] gpu::BufferPart range_of(const Place& place,
-                                           const plan::BufferOutput& output) const;
+                                           const device_input::BufferOutput& output) const;
     void lay_out_buffer();
     void move_places();
     /// Makes the place of an output as large as it has to be.
     void grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
               std::uint64_t blocks);
     [[nodiscard]] gpu::BufferPart header_part(const Place& place) const {
-        return records_.part(place.header, plan::bytes_of_header + place.block_bytes);
+        return records_.part(place.header, shaders::bytes_of_header + place.block_bytes);
     }
     [[nodiscard]] HeaderOnDevice header_at(const Place& place) const {
         return {records_.handle(), place.header};
@@ -108,7 +108,7 @@ private:
 
     const gpu::Device* device_;
     const graph::ComputeLayout* layout_;
-    const plan::ResidentOutputs* resident_ = nullptr;
+    const device_input::ResidentOutputs* resident_ = nullptr;
     gpu::MappedBuffer tables_;
     gpu::MappedBuffer records_;
     std::vector<Images> images_;  // by field

@@ -7,10 +7,10 @@
 namespace nearfield::render {
 namespace {
 
-constexpr std::uint64_t bytes_of_counts = plan::words_of_counts * sizeof(std::uint32_t);
+constexpr std::uint64_t bytes_of_counts = shaders::words_of_counts * sizeof(std::uint32_t);
 /// Those of the dispatches of all stages.
 constexpr std::uint64_t bytes_of_arguments =
-    std::uint64_t{plan::stages_of_pairs} * plan::words_of_arguments * sizeof(std::uint32_t);
+    std::uint64_t{shaders::stages_of_pairs} * shaders::words_of_arguments * sizeof(std::uint32_t);
 
 bool have_room(const PairCounts& counts, const PairCounts& capacities) {
     return std::equal(counts.begin(), counts.end(), capacities.begin(),
@@ -27,19 +27,19 @@ std::uint32_t ScratchLayout::words(std::uint64_t count) {
 
 std::uint32_t ScratchLayout::sums(std::uint64_t elements) {
     // A dispatch of several rows has up to one workgroup fewer than rows too many (totals.glsl).
-    const std::uint64_t workgroups = elements / plan::search_block + 1;
-    const std::uint64_t rows = workgroups / plan::max_workgroups + 1;
+    const std::uint64_t workgroups = elements / shaders::search_block + 1;
+    const std::uint64_t rows = workgroups / shaders::max_workgroups + 1;
     return words(workgroups + rows);
 }
 
 void ScratchLayout::add_stages(std::uint64_t items, std::uint64_t edges, std::uint64_t points,
-                               std::uint64_t others, plan::SearchPush& push) {
-    const std::uint64_t threads = points / plan::points_per_thread + 1;
+                               std::uint64_t others, shaders::SearchPush& push) {
+    const std::uint64_t threads = points / shaders::points_per_thread + 1;
     push.block_sums = sums(std::max({items, edges, threads, others}));
     push.item_blocks = sums(items);
-    push.item_words = words(plan::words_of_item * items);
+    push.item_words = words(shaders::words_of_item * items);
     push.edge_blocks = sums(edges);
-    push.edge_units = units(plan::units_of_edge * edges);
+    push.edge_units = units(shaders::units_of_edge * edges);
     push.point_blocks = sums(threads);
     push.point_units = units(points);
     push.depths = words(points);
@@ -49,7 +49,7 @@ ShapeBuffer::ShapeBuffer(const gpu::Device& device)
     : buffer_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
               gpu::Direction::upload, "nearfield pair shapes") {}
 
-bool ShapeBuffer::upload(const plan::SearchShapes& shapes) {
+bool ShapeBuffer::upload(const device_input::SearchShapes& shapes) {
     const auto bytes = std::as_bytes(shapes.units());
     const bool is_new = buffer_.reserve(bytes.size());
     if (!is_new && shapes.revision() == revision_) {
@@ -64,8 +64,8 @@ bool ShapeBuffer::upload(const plan::SearchShapes& shapes) {
 }
 
 PairPartMemory::PairPartMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
-                               const passes::PairSearch& search, const plan::PairSearchKind& kind,
-                               bool is_resident)
+                               const passes::PairSearch& search,
+                               const device_input::PairSearchKind& kind, bool is_resident)
     : search_(&search),
       kind_(kind),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
@@ -107,7 +107,7 @@ void PairPartMemory::bind(const SearchInput& input, const gpu::BufferPart& scrat
 
 void PairPartMemory::clear_counts(std::uint32_t pairs) {
     std::memset(counts_.data(), 0, bytes_of_counts);
-    std::memcpy(counts_.data() + plan::pair_total * sizeof(pairs), &pairs, sizeof(pairs));
+    std::memcpy(counts_.data() + shaders::pair_total * sizeof(pairs), &pairs, sizeof(pairs));
     counts_.flush();
 }
 
@@ -127,8 +127,8 @@ std::uint32_t PairPartMemory::count(std::uint32_t word) const {
 /// Reads what there was room for. `first_row`: how many rows the parts before have.
 void PairPartMemory::read_results(std::uint32_t first_row, std::vector<std::uint32_t>& undecided) {
     first_row_ = first_row;
-    row_count_ = count(plan::row_total);
-    candidates_ = count(plan::pair_total) - count(plan::reverse_pairs);
+    row_count_ = count(shaders::row_total);
+    candidates_ = count(shaders::pair_total) - count(shaders::reverse_pairs);
     rows_.invalidate();
     if (records_.data() != nullptr) {
         records_.invalidate();
@@ -137,8 +137,8 @@ void PairPartMemory::read_results(std::uint32_t first_row, std::vector<std::uint
         return;  // each row says so
     }
     const auto* const numbers = reinterpret_cast<const std::uint32_t*>(
-        rows_data() + 1 + input_.capacities[plan::row_total]);
-    const std::uint32_t own = std::min(count(plan::undecided_rows), row_count_);
+        rows_data() + 1 + input_.capacities[shaders::row_total]);
+    const std::uint32_t own = std::min(count(shaders::undecided_rows), row_count_);
     const auto first = undecided.insert(undecided.end(), numbers, numbers + own);
     std::sort(first, undecided.end());
     for (auto number = first; number != undecided.end(); ++number) {
@@ -147,8 +147,8 @@ void PairPartMemory::read_results(std::uint32_t first_row, std::vector<std::uint
 }
 
 SearchMemory::SearchMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
-                           const passes::PairSearch& search, const plan::PairSearchKind& kind,
-                           bool is_resident)
+                           const passes::PairSearch& search,
+                           const device_input::PairSearchKind& kind, bool is_resident)
     : device_(&device),
       layout_(&layout),
       search_(&search),
@@ -176,7 +176,7 @@ void SearchMemory::lay_out(const SearchInput& input, const PairLimits& limits) {
             std::make_unique<PairPartMemory>(*device_, *layout_, *search_, kind_, is_resident_));
     }
     memories_.resize(parts_.count());
-    plan::SearchPush push{};
+    shaders::SearchPush push{};
     scratch_bytes_ = 0;
     for (std::size_t i = 0; i < parts_.count(); ++i) {
         const PairBytes bytes =

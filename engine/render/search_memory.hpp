@@ -1,11 +1,11 @@
 #pragma once
 
+#include <engine/device_input/search_shapes.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bound_resources.hpp>
 #include <engine/graph/compute_layout.hpp>
-#include <engine/plan/search_shapes.hpp>
 #include <engine/render/search_parts.hpp>
 #include <passes/pair_search.hpp>
 
@@ -32,12 +32,12 @@ public:
     /// Adds the arrays of items, edges and points, and one for the sums of the blocks of any of
     /// these, or of so many other elements.
     void add_stages(std::uint64_t items, std::uint64_t edges, std::uint64_t points,
-                    std::uint64_t others, plan::SearchPush& push);
+                    std::uint64_t others, shaders::SearchPush& push);
 
     [[nodiscard]] std::uint64_t bytes() const { return words_ * sizeof(std::uint32_t); }
 
 private:
-    std::uint64_t words_ = plan::words_of_totals;
+    std::uint64_t words_ = shaders::words_of_totals;
 };
 
 /// Of a scratch memory, which shaders also read as texels.
@@ -51,7 +51,7 @@ public:
 
     /// Takes shapes that have changed to the device. Returns whether buffer or size are others than
     /// before.
-    bool upload(const plan::SearchShapes& shapes);
+    bool upload(const device_input::SearchShapes& shapes);
 
     /// What passes bind.
     [[nodiscard]] gpu::BufferPart part() const { return buffer_.part(0, bytes_); }
@@ -74,7 +74,7 @@ struct SearchInput {
 class PairPartMemory {
 public:
     PairPartMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
-                   const passes::PairSearch& search, const plan::PairSearchKind& kind,
+                   const passes::PairSearch& search, const device_input::PairSearchKind& kind,
                    bool is_resident);
     PairPartMemory(const PairPartMemory&) = delete;
     PairPartMemory& operator=(const PairPartMemory&) = delete;
@@ -82,7 +82,7 @@ public:
     [[nodiscard]] const passes::PairSearch::Input& input() const { return input_; }
     /// What the passes after the search bind.
     [[nodiscard]] gpu::BufferPart row_part() const {
-        return rows_.part(0, bytes_of_pair_rows(input_.capacities[plan::row_total]));
+        return rows_.part(0, bytes_of_pair_rows(input_.capacities[shaders::row_total]));
     }
 
     /// Of what was read last: how many rows the parts before have, and this one.
@@ -90,14 +90,16 @@ public:
     [[nodiscard]] std::uint32_t row_count() const { return row_count_; }
     /// Pairs that the search was asked about.
     [[nodiscard]] std::uint32_t candidates() const { return candidates_; }
-    [[nodiscard]] const plan::PairRowData& row(std::uint32_t i) const { return rows_data()[i + 1]; }
+    [[nodiscard]] const shaders::PairRowData& row(std::uint32_t i) const {
+        return rows_data()[i + 1];
+    }
     /// In ascending order of the pairs.
-    [[nodiscard]] std::span<const plan::PairRowData> rows() const {
+    [[nodiscard]] std::span<const shaders::PairRowData> rows() const {
         return {rows_data() + 1, row_count_};
     }
     /// Only if the host reads them; where it does not read all, those that rows ask for.
-    [[nodiscard]] const plan::FoundPointData* records() const {
-        return reinterpret_cast<const plan::FoundPointData*>(records_.data());
+    [[nodiscard]] const shaders::FoundPointData* records() const {
+        return reinterpret_cast<const shaders::FoundPointData*>(records_.data());
     }
 
 private:
@@ -109,13 +111,13 @@ private:
     void clear_counts(std::uint32_t pairs);
     [[nodiscard]] PairCounts read_counts() const;
     void read_results(std::uint32_t first_row, std::vector<std::uint32_t>& undecided);
-    [[nodiscard]] const plan::PairRowData* rows_data() const {
-        return reinterpret_cast<const plan::PairRowData*>(rows_.data());
+    [[nodiscard]] const shaders::PairRowData* rows_data() const {
+        return reinterpret_cast<const shaders::PairRowData*>(rows_.data());
     }
     [[nodiscard]] std::uint32_t count(std::uint32_t word) const;
 
     const passes::PairSearch* search_;
-    plan::PairSearchKind kind_;
+    device_input::PairSearchKind kind_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer rows_;
     gpu::MappedBuffer counts_;
@@ -133,7 +135,7 @@ class SearchMemory {
 public:
     /// The passes must stay.
     SearchMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
-                 const passes::PairSearch& search, const plan::PairSearchKind& kind,
+                 const passes::PairSearch& search, const device_input::PairSearchKind& kind,
                  bool is_resident);
 
     /// The capacities; once they have changed, lay_out() has to follow.
@@ -179,7 +181,7 @@ private:
     const gpu::Device* device_;
     const graph::ComputeLayout* layout_;
     const passes::PairSearch* search_;
-    plan::PairSearchKind kind_;
+    device_input::PairSearchKind kind_;
     bool is_resident_;
     gpu::MappedBuffer scratch_;
     gpu::MappedBuffer arguments_;

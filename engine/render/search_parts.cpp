@@ -63,22 +63,23 @@ PairCounts share(PairCounts counts, std::uint32_t few, std::uint32_t all) {
 
 }  // namespace
 
-PairCounts first_capacities(const plan::PairSearchKind& kind) {
-    PairCounts counts = kind.goal == plan::PairGoal::tests ? first_of_tests : first_of_points;
-    if (kind.points == plan::FoundPoints::compared) {
-        counts[plan::record_total] = 0;
+PairCounts first_capacities(const device_input::PairSearchKind& kind) {
+    PairCounts counts =
+        kind.goal == device_input::PairGoal::tests ? first_of_tests : first_of_points;
+    if (kind.points == device_input::FoundPoints::compared) {
+        counts[shaders::record_total] = 0;
     }
     return counts;
 }
 
 bool is_countable(const PairCounts& counts) {
-    return counts[plan::pair_total] < plan::max_pairs &&
+    return counts[shaders::pair_total] < shaders::max_pairs &&
            std::all_of(counts.begin(), counts.end(),
                        [](std::uint32_t count) { return count <= max_counted; });
 }
 
 void require_searchable(const PairCounts& counts) {
-    if (counts[plan::pair_total] == plan::too_many_pairs) {
+    if (counts[shaders::pair_total] == shaders::too_many_pairs) {
         throw StatusException(
             {StatusCode::too_large,
              "the world has an instance whose box overlaps with those of some 50,000 others, or "
@@ -89,15 +90,15 @@ void require_searchable(const PairCounts& counts) {
 PairCounts grown(const PairCounts& counts, const PairCounts& capacities) {
     PairCounts larger = capacities;
     double growth = 1.0;
-    for (const auto stage : {plan::pair_total, plan::item_total, plan::edge_total,
-                             plan::point_total, plan::record_total, plan::row_total}) {
+    for (const auto stage : {shaders::pair_total, shaders::item_total, shaders::edge_total,
+                             shaders::point_total, shaders::record_total, shaders::row_total}) {
         const double expected = growth * counts[stage];
-        const double most = stage == plan::row_total ? counts[plan::pair_total] : max_counted;
+        const double most = stage == shaders::row_total ? counts[shaders::pair_total] : max_counted;
         if (expected > capacities[stage]) {
             larger[stage] = std::max(capacities[stage],
                                      static_cast<std::uint32_t>(std::min(1.25 * expected, most)));
         }
-        if (stage != plan::pair_total) {
+        if (stage != shaders::pair_total) {
             growth *= std::max(1.0, 1.0 * counts[stage] / std::max(capacities[stage], 1U));
         }
     }
@@ -105,7 +106,7 @@ PairCounts grown(const PairCounts& counts, const PairCounts& capacities) {
 }
 
 Status overflow(const PairCounts& counts, const PairCounts& capacities) {
-    constexpr std::array<const char*, plan::stages_of_pairs> names{
+    constexpr std::array<const char*, shaders::stages_of_pairs> names{
         "edges", "points", "points near or inside", "pairs", "groups of edges", "rows"};
     std::vector<std::string> reasons;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -121,38 +122,38 @@ Status overflow(const PairCounts& counts, const PairCounts& capacities) {
 }
 
 std::uint64_t bytes_of_pair_rows(std::uint32_t rows) {
-    return (std::uint64_t{rows} + 1) * sizeof(plan::PairRowData) +
+    return (std::uint64_t{rows} + 1) * sizeof(shaders::PairRowData) +
            std::uint64_t{rows} * sizeof(std::uint32_t);
 }
 
-std::uint64_t bytes_of_pair_records(const plan::PairSearchKind& kind,
+std::uint64_t bytes_of_pair_records(const device_input::PairSearchKind& kind,
                                     const PairCounts& capacities) {
-    return std::max(kind.reads_points() ? capacities[plan::record_total] : 0, 1U) *
-           sizeof(plan::FoundPointData);
+    return std::max(kind.reads_points() ? capacities[shaders::record_total] : 0, 1U) *
+           sizeof(shaders::FoundPointData);
 }
 
-PairBytes place_pair_arrays(const plan::PairSearchKind& kind, std::uint32_t instances,
-                            const PairCounts& capacities, plan::SearchPush& push) {
+PairBytes place_pair_arrays(const device_input::PairSearchKind& kind, std::uint32_t instances,
+                            const PairCounts& capacities, shaders::SearchPush& push) {
     const auto [edges, points, found, pairs, items, rows] = capacities;
     push.instances = instances;
     ScratchLayout layout;
     const std::uint32_t found_pairs = kind.are_given() ? 0 : pairs;
     push.boxes = layout.units(units_of_boxes(instances));
-    push.lists = layout.units(plan::units_of_list * std::uint64_t{instances});
+    push.lists = layout.units(shaders::units_of_list * std::uint64_t{instances});
     push.pairs = layout.words(2 * std::uint64_t{found_pairs});
-    push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
+    push.directions = layout.units(shaders::units_of_direction * std::uint64_t{pairs});
     push.summaries = layout.units(2 * std::uint64_t{pairs});
     push.verdicts = layout.words(found_pairs);
     push.frames = layout.units(found_pairs);
     push.first_directions = layout.sums(items);
     // Two sums for each block of instances, which begin whole units.
-    constexpr std::uint64_t more = std::uint64_t{8} * plan::search_block;
+    constexpr std::uint64_t more = std::uint64_t{8} * shaders::search_block;
     const std::uint64_t both = 2 * std::uint64_t{instances} + more;
     layout.add_stages(items, edges, points, std::max<std::uint64_t>(pairs, both), push);
     return {layout.bytes(), bytes_of_pair_records(kind, capacities), bytes_of_pair_rows(rows)};
 }
 
-PairParts::PairParts(const plan::PairSearchKind& kind, bool is_resident)
+PairParts::PairParts(const device_input::PairSearchKind& kind, bool is_resident)
     : kind_(kind),
       is_resident_(is_resident),
       first_capacities_(first_capacities(kind_)),
@@ -181,7 +182,7 @@ bool PairParts::set_instances(std::uint32_t count) {
 }
 
 bool PairParts::set_given(const PairCounts& counts, const PairCounts& room) {
-    const std::uint32_t end = counts[plan::pair_total];
+    const std::uint32_t end = counts[shaders::pair_total];
     bool are_others = parts_.back().end != end;
     if (parts_.size() > 1) {
         if (!are_others) {
@@ -217,7 +218,7 @@ void PairParts::grow(std::size_t i, const PairCounts& counts) {
 }
 
 PairBytes PairParts::bytes_of(const PairCounts& capacities) const {
-    plan::SearchPush push{};
+    shaders::SearchPush push{};
     return place_pair_arrays(kind_, parts_.back().end, capacities, push);
 }
 
@@ -236,8 +237,8 @@ PairBytes PairParts::bytes_of_residents(const PairCounts& capacities) const {
     if (!is_resident_) {
         return {};
     }
-    return {0, PairOutputs::bytes_of_records(capacities[plan::record_total]),
-            PairOutputs::bytes_of_pairs(capacities[plan::row_total])};
+    return {0, PairOutputs::bytes_of_records(capacities[shaders::record_total]),
+            PairOutputs::bytes_of_pairs(capacities[shaders::row_total])};
 }
 
 PairBytes PairParts::bytes_of_all_residents() const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/plan/pair_question.hpp>
+#include <engine/device_input/pair_question.hpp>
 #include <nearfield/status.hpp>
 
 #include <shaders/pairs.h>
@@ -18,10 +18,10 @@ namespace nearfield::render {
 
 /// How many a search between pairs has counted, or has room for, by stage
 /// (shaders/search.h): edges, points, points found, pairs, their items, and rows.
-using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
+using PairCounts = std::array<std::uint32_t, shaders::stages_of_pairs>;
 
 /// Room for what a first search may find. Tests look at no points.
-[[nodiscard]] PairCounts first_capacities(const plan::PairSearchKind& kind);
+[[nodiscard]] PairCounts first_capacities(const device_input::PairSearchKind& kind);
 /// Whether a search of one part can count so many.
 [[nodiscard]] bool is_countable(const PairCounts& counts);
 /// Throws StatusException (too_large) if one instance has more pairs than can be searched.
@@ -47,11 +47,12 @@ struct PairBytes {
 /// Those of the rows of a part, of one more, and of the numbers of rows that the CPU decides.
 [[nodiscard]] std::uint64_t bytes_of_pair_rows(std::uint32_t rows);
 /// Those of records that the host reads, if it reads any.
-[[nodiscard]] std::uint64_t bytes_of_pair_records(const plan::PairSearchKind& kind,
+[[nodiscard]] std::uint64_t bytes_of_pair_records(const device_input::PairSearchKind& kind,
                                                   const PairCounts& capacities);
 /// Says where a part has its arrays in the scratch memory, behind the boxes of all `instances`.
-[[nodiscard]] PairBytes place_pair_arrays(const plan::PairSearchKind& kind, std::uint32_t instances,
-                                          const PairCounts& capacities, plan::SearchPush& push);
+[[nodiscard]] PairBytes place_pair_arrays(const device_input::PairSearchKind& kind,
+                                          std::uint32_t instances, const PairCounts& capacities,
+                                          shaders::SearchPush& push);
 
 /// Instances that follow one another, whose pairs are searched at once: those that have one of them
 /// first. Or given pairs, each of which counts for an instance.
@@ -73,7 +74,7 @@ struct PairLimits {
 /// Together they have all instances, or all given pairs.
 class PairParts {
 public:
-    PairParts(const plan::PairSearchKind& kind, bool is_resident);
+    PairParts(const device_input::PairSearchKind& kind, bool is_resident);
 
     [[nodiscard]] std::size_t count() const { return parts_.size(); }
     [[nodiscard]] const PairPart& operator[](std::size_t i) const { return parts_[i]; }
@@ -112,7 +113,7 @@ private:
     bool forget_estimates();
     void fit_memory(const PairLimits& limits);
 
-    plan::PairSearchKind kind_;
+    device_input::PairSearchKind kind_;
     bool is_resident_;
     PairCounts first_capacities_;
     std::vector<PairPart> parts_;

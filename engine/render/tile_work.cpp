@@ -61,12 +61,12 @@ void TileWork::lay_out_output(graph::DescriptorUpdates& updates) {
     }
     std::uint64_t end = 0;
     for (const std::uint32_t number : running_) {
-        const plan::TileBatch& batch = this->batch(number);
+        const device_input::TileBatch& batch = this->batch(number);
         const std::uint64_t point_bytes = batch.points.size() * sizeof(std::uint32_t);
         const std::uint64_t field_bytes = batch.field_words * sizeof(std::uint32_t);
-        const std::uint64_t summary_bytes = batch.tiles.size() * sizeof(plan::TileSummary);
+        const std::uint64_t summary_bytes = batch.tiles.size() * sizeof(shaders::TileSummary);
         const std::uint64_t sample_bytes =
-            sizeof(std::uint32_t) + states_[number].sample_capacity * sizeof(plan::SampleData);
+            sizeof(std::uint32_t) + states_[number].sample_capacity * sizeof(shaders::SampleData);
         require_range(*device_, std::max({point_bytes, field_bytes, summary_bytes, sample_bytes}),
                       "the results");
         OutputParts& parts = states_[number].output;
@@ -86,7 +86,7 @@ void TileWork::lay_out_output(graph::DescriptorUpdates& updates) {
 }
 
 void TileWork::empty_output(std::uint32_t number) const {
-    const plan::TileSummary empty;
+    const shaders::TileSummary empty;
     const OutputParts& parts = states_[number].output;
     std::memset(read_back_.data() + parts.samples, 0, sizeof(std::uint32_t));
     for (std::size_t i = 0; i < batch(number).tiles.size(); ++i) {
@@ -171,14 +171,14 @@ std::span<const std::uint32_t> TileWork::field_words(std::uint32_t number) const
     return elements_at<std::uint32_t>(read_back_, output(number).field, batch(number).field_words);
 }
 
-std::span<const plan::TileSummary> TileWork::summaries(std::uint32_t number) const {
-    return elements_at<plan::TileSummary>(read_back_, output(number).summaries,
-                                          batch(number).tiles.size());
+std::span<const shaders::TileSummary> TileWork::summaries(std::uint32_t number) const {
+    return elements_at<shaders::TileSummary>(read_back_, output(number).summaries,
+                                             batch(number).tiles.size());
 }
 
-std::span<const plan::SampleData> TileWork::samples(std::uint32_t number) const {
-    return elements_at<plan::SampleData>(read_back_, output(number).samples + sizeof(std::uint32_t),
-                                         states_[number].sample_count);
+std::span<const shaders::SampleData> TileWork::samples(std::uint32_t number) const {
+    return elements_at<shaders::SampleData>(
+        read_back_, output(number).samples + sizeof(std::uint32_t), states_[number].sample_count);
 }
 
 }  // namespace nearfield::render

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <engine/device_input/current_query.hpp>
+#include <engine/device_input/tile_batch.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bound_resources.hpp>
 #include <engine/graph/compute_layout.hpp>
 #include <engine/graph/recorded_graph.hpp>
-#include <engine/plan/current_query.hpp>
-#include <engine/plan/tile_batch.hpp>
 #include <nearfield/diagnostics.hpp>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ public:
     TileTechnique& operator=(const TileTechnique&) = delete;
 
     /// Plans a query about points as tiles, if the technique does so.
-    virtual void plan_points(plan::CurrentQuery& /*current*/, AnyResult& /*result*/) {}
+    virtual void plan_points(device_input::CurrentQuery& /*current*/, AnyResult& /*result*/) {}
     /// The part of a batch in flight. This has to outlive it.
     [[nodiscard]] virtual std::unique_ptr<TileWork> make_work() = 0;
     /// The time that making its own pipelines has taken.
@@ -99,10 +99,10 @@ public:
     TileWork& operator=(const TileWork&) = delete;
 
     /// Makes the technique's tile batches of a plan, in place of those before.
-    virtual void build(const plan::Plan& plan) = 0;
+    virtual void build(const device_input::Plan& plan) = 0;
     /// Number of tile batches.
     [[nodiscard]] std::uint32_t count() const { return count_; }
-    [[nodiscard]] virtual const plan::TileBatch& batch(std::uint32_t number) const = 0;
+    [[nodiscard]] virtual const device_input::TileBatch& batch(std::uint32_t number) const = 0;
 
     /// Uploads the tile batches, which have to stay unchanged until the next call, and selects all
     /// of them for the next submission. No commands of this object may be in flight.
@@ -128,8 +128,8 @@ public:
     /// upload.
     [[nodiscard]] std::span<const std::uint32_t> points(std::uint32_t number) const;
     [[nodiscard]] std::span<const std::uint32_t> field_words(std::uint32_t number) const;
-    [[nodiscard]] std::span<const plan::TileSummary> summaries(std::uint32_t number) const;
-    [[nodiscard]] std::span<const plan::SampleData> samples(std::uint32_t number) const;
+    [[nodiscard]] std::span<const shaders::TileSummary> summaries(std::uint32_t number) const;
+    [[nodiscard]] std::span<const shaders::SampleData> samples(std::uint32_t number) const;
 
 protected:
     /// Byte offsets of a tile batch's parts in the read-back.

@@ -15,23 +15,23 @@ struct Sizes {
     std::uint64_t answer;
 };
 
-Sizes sizes_of(plan::WorldQuestion question) {
+Sizes sizes_of(device_input::WorldQuestion question) {
     switch (question) {
-        case plan::WorldQuestion::rays:
-            return {sizeof(plan::RayData), sizeof(plan::RayAnswerData)};
-        case plan::WorldQuestion::nearest:
-            return {sizeof(plan::NearestData), sizeof(plan::NearestAnswerData)};
-        case plan::WorldQuestion::poses:
+        case device_input::WorldQuestion::rays:
+            return {sizeof(shaders::RayData), sizeof(shaders::RayAnswerData)};
+        case device_input::WorldQuestion::nearest:
+            return {sizeof(shaders::NearestData), sizeof(shaders::NearestAnswerData)};
+        case device_input::WorldQuestion::poses:
             break;
     }
-    return {sizeof(plan::PoseData), sizeof(std::uint32_t)};
+    return {sizeof(shaders::PoseData), sizeof(std::uint32_t)};
 }
 
 }  // namespace
 
 WorldQueryBuffers::WorldQueryBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
                                      const passes::WorldQueries& passes,
-                                     plan::WorldQuestion question, bool timestamps)
+                                     device_input::WorldQuestion question, bool timestamps)
     : device_(&device),
       passes_(&passes),
       question_bytes_(sizes_of(question).question),
@@ -75,7 +75,7 @@ std::byte* WorldQueryBuffers::reserve(std::uint64_t count, std::uint64_t memory_
                                         std::to_string(reached) + " of a buffer"});
     }
     input_.push.count = static_cast<std::uint32_t>(count);
-    input_.push.answers = static_cast<std::uint32_t>(first_answer / plan::bytes_of_unit);
+    input_.push.answers = static_cast<std::uint32_t>(first_answer / shaders::bytes_of_unit);
     input_.copy = {first_answer, 0, answers};
     scratch_.reserve(scratch);
     questions_.reserve(questions);
@@ -99,14 +99,14 @@ void WorldQueryBuffers::bind() {
     updates_.end();
 }
 
-void WorldQueryBuffers::begin(const plan::SearchShapes& shapes, const plan::WorldQueryPush& push,
-                              Timings& timings) {
+void WorldQueryBuffers::begin(const device_input::SearchShapes& shapes,
+                              const shaders::WorldQueryPush& push, Timings& timings) {
     const Stopwatch start;
     checkpoint();
     world_.upload(shapes);
     questions_.flush();
     bind();
-    const plan::WorldQueryPush placed = input_.push;
+    const shaders::WorldQueryPush placed = input_.push;
     input_.push = push;
     input_.push.instances = world_.count();
     input_.push.boxes = placed.boxes;

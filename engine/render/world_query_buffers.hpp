@@ -1,13 +1,13 @@
 #pragma once
 
+#include <engine/device_input/search_shapes.hpp>
+#include <engine/device_input/world_question.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bound_resources.hpp>
 #include <engine/graph/compute_layout.hpp>
-#include <engine/plan/search_shapes.hpp>
-#include <engine/plan/world_question.hpp>
 #include <engine/render/instance_buffers.hpp>
 #include <nearfield/timings.hpp>
 #include <passes/world_queries.hpp>
@@ -23,7 +23,7 @@ class WorldQueryBuffers {
 public:
     /// The passes must stay.
     WorldQueryBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
-                      const passes::WorldQueries& passes, plan::WorldQuestion question,
+                      const passes::WorldQueries& passes, device_input::WorldQuestion question,
                       bool timestamps);
     /// Waits for the device if it is still working.
     ~WorldQueryBuffers();
@@ -39,7 +39,7 @@ public:
     [[nodiscard]] std::byte* reserve(std::uint64_t count, std::uint64_t memory_limit);
     /// Lets the device answer them; nothing may be changed until finish(). `push`: who is asked.
     /// Adds the time of recording and submission.
-    void begin(const plan::SearchShapes& shapes, const plan::WorldQueryPush& push,
+    void begin(const device_input::SearchShapes& shapes, const shaders::WorldQueryPush& push,
                Timings& timings);
     /// Whether finish() need not wait for what was begun.
     [[nodiscard]] bool is_done() const { return !is_submitted_ || submission_.is_done(); }

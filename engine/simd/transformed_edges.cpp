@@ -1,5 +1,5 @@
+#include <engine/geometry/hierarchy.hpp>
 #include <engine/geometry/magnitude.hpp>
-#include <engine/localize/hierarchy.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
 #include <algorithm>
@@ -182,7 +182,7 @@ void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pos
 }
 
 void TransformedInstances::write_magnitudes(const Pose& pose, TransformedEdges& edges) {
-    edges.rounding = localize::placement_rounding(edges.placed, edges.box);
+    edges.rounding = geometry::placement_rounding(edges.placed, edges.box);
     edges.magnitude = geometry::largest_magnitude(edges.placed, pose, edges.box);
 }
 

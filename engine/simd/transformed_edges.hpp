@@ -20,7 +20,7 @@ namespace nearfield::simd {
 struct TransformedEdges : EdgeArrays {
     geometry::TransformedPolygon placed;
     geometry::Box box;
-    double rounding = 0.0;                   ///< of the vertices: localize::placement_rounding
+    double rounding = 0.0;                   ///< of the vertices: geometry::placement_rounding
     double magnitude = 0.0;                  ///< geometry::largest_magnitude
     std::span<const EdgeRange> pieces = {};  ///< of an AabbTree
     const double* boxes = nullptr;           ///< of the tree; null until they are built
@@ -34,7 +34,7 @@ struct TransformedEdges : EdgeArrays {
     [[nodiscard]] geometry::Vector end(std::uint32_t edge) const {
         return {end_x[edge], end_y[edge]};
     }
-    /// The point at `parameter` < 1 along an edge, bit for bit equal to plan::position().
+    /// The point at `parameter` < 1 along an edge, bit for bit equal to queries::position().
     [[nodiscard]] geometry::Vector at(std::uint32_t edge, double parameter) const {
         const geometry::Vector from = start(edge);
         return from + parameter * (end(edge) - from);

@@ -1,5 +1,5 @@
 #include <engine/base/interruption.hpp>
-#include <engine/plan/placed_pair.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/solvers/closest_points.hpp>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace nearfield::solvers {
 namespace {
 
-using plan::CheckedQuery;
+using queries::CheckedQuery;
 using simd::TransformedEdges;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ void ClosestSolver::answer_apart(const CheckedQuery& query, const simd::Transfor
     // that large, there is none, and such a margin may cover very many pairs.
     const double extent = std::max(a.box.diagonal().norm(), b.box.diagonal().norm());
     const double margin =
-        result.tolerance < extent ? result.tolerance * plan::uniqueness_margin : 0.0;
+        result.tolerance < extent ? result.tolerance * queries::uniqueness_margin : 0.0;
     const narrowphase::ClosestPair closest = finder_.find(a, b, at_most, margin);
     result.distance = std::sqrt(closest.squared_distance);
     result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.distance;
@@ -40,7 +40,7 @@ void ClosestSolver::answer_apart(const CheckedQuery& query, const simd::Transfor
 void ClosestSolver::answer(const CheckedQuery& query, Workspace& workspace,
                            SeparationResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const plan::PlacedPair pair = place_pair(query, instances);
+    const queries::PlacedPair pair = place_pair(query, instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {

@@ -1,10 +1,10 @@
 #include <engine/base/interruption.hpp>
-#include <engine/plan/boundary_points.hpp>
-#include <engine/plan/error_budget.hpp>
-#include <engine/plan/placed_pair.hpp>
-#include <engine/plan/region.hpp>
-#include <engine/records/nearest_feature.hpp>
+#include <engine/queries/boundary_points.hpp>
+#include <engine/queries/error_budget.hpp>
+#include <engine/queries/grid.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/solvers/contacts.hpp>
+#include <engine/solvers/nearest_feature.hpp>
 
 #include <utility>
 
@@ -13,10 +13,10 @@ namespace nearfield::solvers {
 using geometry::Box;
 using geometry::Vector;
 
-void ContactSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
+void ContactSolver::answer(const queries::CheckedQuery& query, Workspace& workspace,
                            ContactResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const plan::PlacedPair pair = place_pair(query, instances);
+    const queries::PlacedPair pair = place_pair(query, instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {
@@ -33,8 +33,9 @@ void ContactSolver::answer(const plan::CheckedQuery& query, Workspace& workspace
         return;
     }
     complete(pair, instances);
-    result.regions.push_back(plan::region_of(plan::Grid::covering(of_a.merged(of_b), result.cell)));
-    plan::QueryMemory memory = workspace.memory_of(query, result.tolerance);
+    result.regions.push_back(
+        queries::region_of(queries::Grid::covering(of_a.merged(of_b), result.cell)));
+    queries::QueryMemory memory = workspace.memory_of(query, result.tolerance);
     require_numbers(query, a, b, memory);
     find(a, b, near, memory, result);
     if (asked.normals == ContactNormals::gradient) {
@@ -50,12 +51,13 @@ void ContactSolver::answer(const plan::CheckedQuery& query, Workspace& workspace
     result.intersects = result.intersects || overlap_test_.intersect(a, b);
 }
 
-void ContactSolver::require_numbers(const plan::CheckedQuery& query,
+void ContactSolver::require_numbers(const queries::CheckedQuery& query,
                                     const simd::TransformedEdges& a,
-                                    const simd::TransformedEdges& b, plan::QueryMemory& memory) {
+                                    const simd::TransformedEdges& b, queries::QueryMemory& memory) {
     const auto& asked = std::get<ContactQuery>(*query.query);
     const double cell = query.budget.cell;
-    const double rough = plan::max_samples(*query.a, cell) + plan::max_samples(*query.b, cell);
+    const double rough =
+        queries::max_samples(*query.a, cell) + queries::max_samples(*query.b, cell);
     memory.require_alone(0.0, rough, [&] {
         return samples_.max_samples(a, b, asked.contact_distance, cell) +
                samples_.max_samples(b, a, asked.contact_distance, cell);
@@ -63,18 +65,18 @@ void ContactSolver::require_numbers(const plan::CheckedQuery& query,
 }
 
 void ContactSolver::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-                         double contact_distance, plan::QueryMemory& memory,
+                         double contact_distance, queries::QueryMemory& memory,
                          ContactResult& result) {
     found_.begin(result.cell, a.rounding + b.rounding);
     boundary_.set(b);
     const auto boundary_of_b = [this]() -> narrowphase::Boundary& { return boundary_; };
     for_each_contact(a, b, contact_distance, memory, result,
-                     [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
+                     [&](const queries::BoundaryPoint& place, const ResolvedPoint& resolved) {
                          result.intersects = result.intersects || resolved.inside;
                          found_.add_of_a(place, resolved, boundary_of_b);
                      });
     for_each_contact(b, a, contact_distance, memory, result,
-                     [&](const plan::BoundaryPoint& place, const records::ResolvedPoint& resolved) {
+                     [&](const queries::BoundaryPoint& place, const ResolvedPoint& resolved) {
                          result.intersects = result.intersects || resolved.inside;
                          found_.add_of_b(place, resolved, boundary_);
                      });
@@ -84,12 +86,12 @@ void ContactSolver::find(const simd::TransformedEdges& a, const simd::Transforme
 template <class Use>
 void ContactSolver::for_each_contact(const simd::TransformedEdges& a,
                                      const simd::TransformedEdges& b, double contact_distance,
-                                     plan::QueryMemory& memory, const ContactResult& result,
+                                     queries::QueryMemory& memory, const ContactResult& result,
                                      const Use& use) {
     samples_.find(a, b, contact_distance, result.cell, [&] {
         const simd::PointArrays points = samples_.points().arrays();
         located_.find(points, b,
-                      {.margin = result.tolerance * plan::uniqueness_margin,
+                      {.margin = result.tolerance * queries::uniqueness_margin,
                        .touching = a.rounding + b.rounding,
                        .reach = contact_distance});
         const simd::NearestArrays& nearest = located_.nearest();
@@ -100,36 +102,35 @@ void ContactSolver::for_each_contact(const simd::TransformedEdges& a,
                 continue;
             }
             use(samples_.place(i),
-                records::ResolvedPoint{
-                    {points.x[i], points.y[i]},
-                    {nearest.x[i], nearest.y[i]},
-                    nearest.distance[i],
-                    nearest.edge[i],
-                    nearest.parameter[i],
-                    records::feature_at(b.placed, nearest.edge[i], nearest.parameter[i]),
-                    located_.is_inside(i),
-                    located_.is_unique(i)});
+                ResolvedPoint{{points.x[i], points.y[i]},
+                              {nearest.x[i], nearest.y[i]},
+                              nearest.distance[i],
+                              nearest.edge[i],
+                              nearest.parameter[i],
+                              feature_at(b.placed, nearest.edge[i], nearest.parameter[i]),
+                              located_.is_inside(i),
+                              located_.is_unique(i)});
         }
         // All contacts are kept until the manifold is made.
-        constexpr double kept = sizeof(records::TransformedContact) + sizeof(ContactPoint);
+        constexpr double kept = sizeof(TransformedContact) + sizeof(ContactPoint);
         const double found = found_.count();
         memory.require_alone(kept, found, [found] { return found; });
     });
 }
 
-void ContactSolver::take_gradients(const plan::CheckedQuery& query, Workspace& workspace,
+void ContactSolver::take_gradients(const queries::CheckedQuery& query, Workspace& workspace,
                                    ContactResult& result) {
     const auto& asked = std::get<ContactQuery>(*query.query);
     const std::span<const AnyQuery> fields =
         normals_.fields_around(found_, asked, Technique::cpu, result.cell);
     field_results_.resize(fields.size());
     for (std::uint32_t i = 0; i < fields.size(); ++i) {
-        plan::CheckedQuery field;
-        const plan::QueryShapes shapes{nullptr, query.b};
-        if (plan::check(i, fields[i], shapes, workspace.limits, plan::Submissions::any, field,
-                        field_results_[i])) {
+        queries::CheckedQuery field;
+        const queries::QueryShapes shapes{nullptr, query.b};
+        if (queries::check(i, fields[i], shapes, workspace.limits, queries::Submissions::any, field,
+                           field_results_[i])) {
             // The points are needed for no longer than the contacts.
-            plan::MemoryBudget own(workspace.limits);
+            queries::MemoryBudget own(workspace.limits);
             fields_.answer(field, workspace, own, std::get<DistanceFieldResult>(field_results_[i]));
         }
     }

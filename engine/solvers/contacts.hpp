@@ -3,9 +3,9 @@
 #include <engine/narrowphase/boundary.hpp>
 #include <engine/narrowphase/located_points.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/records/found_contacts.hpp>
-#include <engine/records/gradient_normals.hpp>
 #include <engine/solvers/field.hpp>
+#include <engine/solvers/found_contacts.hpp>
+#include <engine/solvers/gradient_normals.hpp>
 #include <engine/solvers/near_samples.hpp>
 #include <engine/solvers/workspace.hpp>
 #include <nearfield/result.hpp>
@@ -18,32 +18,32 @@ namespace nearfield::solvers {
 /// memory between batches.
 class ContactSolver {
 public:
-    void answer(const plan::CheckedQuery& query, Workspace& workspace, ContactResult& result);
+    void answer(const queries::CheckedQuery& query, Workspace& workspace, ContactResult& result);
 
 private:
     /// Throws StatusException (too_large) if there are more samples than can be numbered.
-    void require_numbers(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
-                         const simd::TransformedEdges& b, plan::QueryMemory& memory);
+    void require_numbers(const queries::CheckedQuery& query, const simd::TransformedEdges& a,
+                         const simd::TransformedEdges& b, queries::QueryMemory& memory);
     /// Calls `use(place, resolved point)` for the samples of A's boundary that are contacts, in
     /// order. Throws StatusException (too_large) if the batch has no memory for those found.
     template <class Use>
     void for_each_contact(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-                          double contact_distance, plan::QueryMemory& memory,
+                          double contact_distance, queries::QueryMemory& memory,
                           const ContactResult& result, const Use& use);
     /// Finds the contacts of both boundaries.
     void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-              double contact_distance, plan::QueryMemory& memory, ContactResult& result);
+              double contact_distance, queries::QueryMemory& memory, ContactResult& result);
     /// Replaces the normals of what was found by gradients of B's field; the result states the
     /// error of a field.
-    void take_gradients(const plan::CheckedQuery& query, Workspace& workspace,
+    void take_gradients(const queries::CheckedQuery& query, Workspace& workspace,
                         ContactResult& result);
 
     NearSamples samples_;
     narrowphase::LocatedPoints located_;  // the samples
     narrowphase::Boundary boundary_;      // of B
-    records::FoundContacts found_;
+    FoundContacts found_;
     narrowphase::OverlapTest overlap_test_;
-    records::GradientNormals normals_;
+    GradientNormals normals_;
     FieldSolver fields_;  // around contacts
     std::vector<AnyResult> field_results_;
 };

@@ -1,5 +1,5 @@
 #include <engine/geometry/segment.hpp>
-#include <engine/plan/placed_pair.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/solvers/closest_points.hpp>
 #include <engine/solvers/containment.hpp>
 
@@ -29,10 +29,10 @@ void ContainmentSolver::write_clearance(const TransformedEdges& a, const Transfo
     result.unique = finder_.is_unique(pair, narrowphase::Side::either, rounding, rounding);
 }
 
-void ContainmentSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
+void ContainmentSolver::answer(const queries::CheckedQuery& query, Workspace& workspace,
                                ContainmentResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const plan::PlacedPair pair = place_pair(query, instances);
+    const queries::PlacedPair pair = place_pair(query, instances);
     complete_if_near(pair, instances);
     const TransformedEdges& a = instances[pair.a];
     const TransformedEdges& b = instances[pair.b];

@@ -11,7 +11,8 @@ namespace nearfield::solvers {
 /// Answers containment queries. Reuses its memory between batches.
 class ContainmentSolver {
 public:
-    void answer(const plan::CheckedQuery& query, Workspace& workspace, ContainmentResult& result);
+    void answer(const queries::CheckedQuery& query, Workspace& workspace,
+                ContainmentResult& result);
 
 private:
     /// Precondition: complete shapes, A inside B.

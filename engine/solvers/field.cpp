@@ -1,11 +1,11 @@
 #include <engine/base/interruption.hpp>
-#include <engine/plan/empty_result.hpp>
-#include <engine/plan/placed_pair.hpp>
-#include <engine/plan/tile_edges.hpp>
-#include <engine/records/field_features.hpp>
-#include <engine/records/field_reconstruction.hpp>
-#include <engine/records/nearest_feature.hpp>
+#include <engine/queries/empty_result.hpp>
+#include <engine/queries/placed_pair.hpp>
+#include <engine/queries/tile_edges.hpp>
 #include <engine/solvers/field.hpp>
+#include <engine/solvers/field_features.hpp>
+#include <engine/solvers/field_reconstruction.hpp>
+#include <engine/solvers/nearest_feature.hpp>
 
 #include <shaders/layout.h>
 
@@ -20,20 +20,20 @@ using geometry::TransformedPolygon;
 using geometry::Vector;
 
 // Cell words are the same as on the device.
-static_assert(grid::nearest_inside == plan::point_inside);
-static_assert(grid::FieldSolver::relative_rounding == plan::far_rounding);
-static_assert(grid::nearest_unique == plan::point_unique);
+static_assert(nearest_inside == shaders::point_inside);
+static_assert(CellSolver::relative_rounding == queries::far_rounding);
+static_assert(nearest_unique == shaders::point_unique);
 
 /// The CPU cuts a grid into no tiles.
 constexpr double whole_grid = UINT32_MAX;
 
 double touching_at(const DistanceFieldResult& result) {
-    return records::touching_distance(result.cell, 0);
+    return touching_distance(result.cell, 0);
 }
 
 }  // namespace
 
-void FieldSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
+void FieldSolver::answer(const queries::CheckedQuery& query, Workspace& workspace,
                          DistanceFieldResult& result) {
     answer(query, workspace, *workspace.memory, result);
     if (result.status.ok() && query.a != nullptr) {
@@ -41,26 +41,26 @@ void FieldSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
     }
 }
 
-void FieldSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
-                         plan::MemoryBudget& memory, DistanceFieldResult& result) {
+void FieldSolver::answer(const queries::CheckedQuery& query, Workspace& workspace,
+                         queries::MemoryBudget& memory, DistanceFieldResult& result) {
     const auto& asked = std::get<DistanceFieldQuery>(*query.query);
-    const std::optional<plan::Grid> grid = plan::grid_of_field(query, result);
+    const std::optional<queries::Grid> grid = queries::grid_of_field(query, result);
     if (!grid) {
-        plan::clear_cells(result);
+        queries::clear_cells(result);
         return;
     }
-    parts_ = plan::field_parts(asked);
+    parts_ = queries::field_parts(asked);
     regions_.set(*grid);
     regions_.require_sides(query.index, asked.tolerance);
-    plan::QueryMemory(memory, query.index, asked.tolerance)
-        .require(plan::bytes_of_field(asked, parts_, *grid, whole_grid), 2.0);
+    queries::QueryMemory(memory, query.index, asked.tolerance)
+        .require(queries::bytes_of_field(asked, parts_, *grid, whole_grid), 2.0);
     points_.clear();
-    result.status = plan::place_points(asked, parts_, *grid, {}, points_);
+    result.status = queries::place_points(asked, parts_, *grid, {}, points_);
     if (!result.status.ok()) {
-        plan::clear_cells(result);
+        queries::clear_cells(result);
         return;
     }
-    plan::make_room(asked, *grid, parts_, result);
+    queries::make_room(asked, *grid, parts_, result);
     double largest = 0.0;
     if (parts_.values || parts_.features) {
         largest = solve_cells(query, workspace.simplified, result);
@@ -68,16 +68,16 @@ void FieldSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
     if (!points_.empty()) {
         largest = std::max(largest, solve_points(query, result));
     }
-    static_cast<void>(plan::state_bounds(asked, static_cast<float>(largest), result));
+    static_cast<void>(queries::state_bounds(asked, static_cast<float>(largest), result));
 }
 
-double FieldSolver::solve_cells(const plan::CheckedQuery& query, plan::SimplifiedShapes& shapes,
-                                DistanceFieldResult& result) {
+double FieldSolver::solve_cells(const queries::CheckedQuery& query,
+                                queries::SimplifiedShapes& shapes, DistanceFieldResult& result) {
     const auto& asked = std::get<DistanceFieldQuery>(*query.query);
     const TransformedPolygon b(*query.b, query.pose_b);
     const double cell = result.cell;
-    grid::FieldGrid grid{geometry::to_vector(result.origin), cell, result.width, result.height};
-    grid::FieldOutput output{result.values, {}, cell, plan::margin_in_cells};
+    FieldGrid grid{geometry::to_vector(result.origin), cell, result.width, result.height};
+    FieldOutput output{result.values, {}, cell, queries::margin_in_cells};
     const bool differences =
         asked.gradients && asked.gradient == GradientMethod::central_differences;
     if (differences) {
@@ -94,7 +94,7 @@ double FieldSolver::solve_cells(const plan::CheckedQuery& query, plan::Simplifie
     }
     std::span<const geometry::SimplifiedEdge> edges;
     if (const double most = query.budget.simplification; most > 0.0) {
-        edges = shapes.get(*query.b, most, plan::longest_tile_run * cell).edges;
+        edges = shapes.get(*query.b, most, queries::longest_tile_run * cell).edges;
         double deviation = 0.0;
         for (const geometry::SimplifiedEdge& edge : edges) {
             deviation = std::max(deviation, edge.deviation);
@@ -118,8 +118,8 @@ void FieldSolver::write_features(const DistanceFieldQuery& query, const Transfor
     for (std::size_t row = 0; row < result.height; ++row) {
         checkpoint();
         for (std::size_t column = 0; column < result.width; ++column) {
-            records::write_feature(query, b, touching_at(result), row * result.width + column,
-                                   words_[(row + border) * stride + column + border], result);
+            write_feature(query, b, touching_at(result), row * result.width + column,
+                          words_[(row + border) * stride + column + border], result);
         }
     }
 }
@@ -142,7 +142,7 @@ void FieldSolver::take_differences(const DistanceFieldQuery& query,
     }
 }
 
-double FieldSolver::solve_points(const plan::CheckedQuery& query, DistanceFieldResult& result) {
+double FieldSolver::solve_points(const queries::CheckedQuery& query, DistanceFieldResult& result) {
     const TransformedPolygon b(*query.b, query.pose_b);
     const Vector origin = geometry::to_vector(result.origin);
     const double cell = result.cell;
@@ -159,18 +159,17 @@ double FieldSolver::solve_points(const plan::CheckedQuery& query, DistanceFieldR
     };
     for (std::size_t i = 0; i < points_.size(); ++i) {
         checkpoint();
-        const plan::PlannedFieldPoint& point = points_[i];
-        std::array<double, records::difference_cells.size()> distances{};
+        const queries::PlacedFieldPoint& point = points_[i];
+        std::array<double, difference_cells.size()> distances{};
         const std::size_t count = parts_.cells_per_point;
         for (std::size_t k = 0; k < count; ++k) {
-            const Vector place(static_cast<double>(point.column) - parts_.halo +
-                                   records::difference_cells[k].column + 0.5,
-                               static_cast<double>(point.row) - parts_.halo +
-                                   records::difference_cells[k].row + 0.5);
+            const Vector place(
+                static_cast<double>(point.column) - parts_.halo + difference_cells[k].column + 0.5,
+                static_cast<double>(point.row) - parts_.halo + difference_cells[k].row + 0.5);
             distances[k] = signed_distance(origin + cell * place);
             largest = std::max(largest, std::abs(distances[k]));
         }
-        records::CellsAround around;
+        CellsAround around;
         for (std::size_t k = 0; k < around.distances.size(); ++k) {
             around.distances[k] = distances[k];
             around.inside[k] = std::signbit(distances[k]);
@@ -178,10 +177,10 @@ double FieldSolver::solve_points(const plan::CheckedQuery& query, DistanceFieldR
         const std::uint32_t word = word_at(point.position, guess.edge, cell);
         FieldPoint& found = result.points[i];
         reconstruct(point, around, cell, error,
-                    records::field_feature(b, touching_at(result), point.position, word), found);
+                    field_feature(b, touching_at(result), point.position, word), found);
         if (differences) {
-            found.gradient = records::difference_between(
-                point, [&](std::size_t k) { return distances[k] / cell; });
+            found.gradient =
+                difference_between(point, [&](std::size_t k) { return distances[k] / cell; });
         }
     }
     return largest;
@@ -190,9 +189,9 @@ double FieldSolver::solve_points(const plan::CheckedQuery& query, DistanceFieldR
 std::uint32_t FieldSolver::word_at(const Vector& point, std::uint32_t guess, double cell) {
     const narrowphase::NearestPoint nearest = boundary_.nearest(point, guess);
     const double distance = std::sqrt(nearest.on_edge.squared_distance);
-    const double margin = std::max(plan::margin_in_cells * cell, std::ldexp(distance, -18));
-    return nearest.edge | (boundary_.contains(point) ? plan::point_inside : 0U) |
-           (boundary_.is_unique(point, nearest, margin) ? plan::point_unique : 0U);
+    const double margin = std::max(queries::margin_in_cells * cell, std::ldexp(distance, -18));
+    return nearest.edge | (boundary_.contains(point) ? shaders::point_inside : 0U) |
+           (boundary_.is_unique(point, nearest, margin) ? shaders::point_unique : 0U);
 }
 
 }  // namespace nearfield::solvers

@@ -12,13 +12,13 @@ using simd::TransformedEdges;
 
 double InsideSamples::max_samples(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                   double spacing) {
-    plan::EdgeSampler sampler(a.placed.polygon(), spacing);
+    queries::EdgeSampler sampler(a.placed.polygon(), spacing);
     double count = 0.0;
     SparseCheckpoint<256> checkpoint;
     for (const std::uint32_t edge : find_edges_in(a, b.box, near_)) {
         checkpoint.step();
-        const plan::PartRange range =
-            plan::parts_within(a.placed, edge, sampler.parts_of(edge), b.box);
+        const queries::PartRange range =
+            queries::parts_within(a.placed, edge, sampler.parts_of(edge), b.box);
         count += range.end - range.first;
     }
     return count;
@@ -41,7 +41,7 @@ void InsideSamples::find(const simd::TransformedEdges& a, const simd::Transforme
     std::span<const narrowphase::Crossing> crossings =
         reversed ? crossings_.find_reversed(a, b) : crossings_.find(a, b);
     const geometry::Polygon& polygon = a.placed.polygon();
-    plan::EdgeSampler sampler(polygon, spacing);
+    queries::EdgeSampler sampler(polygon, spacing);
     std::uint32_t ring = 0;
     std::uint32_t after_last = 0;  // index of the last edge plus 1
     SparseCheckpoint<64> checkpoint;
@@ -77,7 +77,8 @@ void InsideSamples::find(const simd::TransformedEdges& a, const simd::Transforme
 void InsideSamples::follow(std::uint32_t edge, double parts,
                            std::span<const narrowphase::Crossing> crossings) {
     // Only a small part of a long edge may be in the box, and it may run along an edge of B.
-    const plan::PartRange in_box = plan::parts_roughly_within(a_->placed, edge, parts, b_->box);
+    const queries::PartRange in_box =
+        queries::parts_roughly_within(a_->placed, edge, parts, b_->box);
     if (in_box.first > 0.0) {
         side_ = is_outside;
     }

@@ -3,7 +3,7 @@
 #include <engine/base/function_ref.hpp>
 #include <engine/narrowphase/crossings.hpp>
 #include <engine/narrowphase/ray_parities.hpp>
-#include <engine/plan/edge_sampler.hpp>
+#include <engine/queries/edge_sampler.hpp>
 #include <engine/simd/point_list.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
@@ -21,7 +21,7 @@ namespace nearfield::solvers {
 class InsideSamples {
 public:
     /// Finds the samples in order along A's rings, consecutive ones at most `spacing` apart along
-    /// the boundary (see plan::sample_chains). Replaces `inside` by those found last: each time
+    /// the boundary (see queries::sample_chains). Replaces `inside` by those found last: each time
     /// that it has as many as are located at once, `use()` is called and it starts over.
     /// Precondition: unless both polygons are small, both are complete. Unspecified for samples on
     /// B's boundary. `reversed`: the previous call had the same polygons in the opposite order.

@@ -1,12 +1,12 @@
-#include <engine/plan/placed_pair.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/solvers/intersection_test.hpp>
 
 namespace nearfield::solvers {
 
-void IntersectionTestSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
+void IntersectionTestSolver::answer(const queries::CheckedQuery& query, Workspace& workspace,
                                     IntersectionTestResult& result) {
     const simd::TransformedInstances& instances = workspace.instances;
-    const plan::PlacedPair pair = place_pair(query, workspace.instances);
+    const queries::PlacedPair pair = place_pair(query, workspace.instances);
     complete_if_near(pair, workspace.instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];

@@ -9,7 +9,7 @@ namespace nearfield::solvers {
 /// Answers intersection tests. Reuses its memory between batches.
 class IntersectionTestSolver {
 public:
-    void answer(const plan::CheckedQuery& query, Workspace& workspace,
+    void answer(const queries::CheckedQuery& query, Workspace& workspace,
                 IntersectionTestResult& result);
 
 private:

@@ -1,6 +1,6 @@
 #include <engine/base/interruption.hpp>
 #include <engine/narrowphase/located_points.hpp>
-#include <engine/plan/edge_sampler.hpp>
+#include <engine/queries/edge_sampler.hpp>
 #include <engine/solvers/near_samples.hpp>
 
 #include <algorithm>
@@ -71,13 +71,13 @@ void NearSamples::begin(const simd::TransformedEdges& a, const simd::Transformed
 double NearSamples::max_samples(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                 double distance, double spacing) {
     begin(a, b, distance);
-    plan::EdgeSampler sampler(a.placed.polygon(), spacing);
+    queries::EdgeSampler sampler(a.placed.polygon(), spacing);
     double count = 0.0;
     SparseCheckpoint<256> checkpoint;
     for (const std::uint32_t edge : find_edges()) {
         checkpoint.step();
-        const plan::PartRange range =
-            plan::parts_within(a.placed, edge, sampler.parts_of(edge), near_b_);
+        const queries::PartRange range =
+            queries::parts_within(a.placed, edge, sampler.parts_of(edge), near_b_);
         count += range.end - range.first;
     }
     return count;
@@ -96,7 +96,7 @@ void NearSamples::find(const simd::TransformedEdges& a, const simd::TransformedE
         tree_.emplace(b.tree());
         trials_ = {};
     }
-    plan::EdgeSampler sampler(a_->placed.polygon(), spacing);
+    queries::EdgeSampler sampler(a_->placed.polygon(), spacing);
     SparseCheckpoint<16> checkpoint;
     for (const std::uint32_t edge : find_edges()) {
         checkpoint.step();
@@ -118,7 +118,7 @@ void NearSamples::hand_over() {
 
 void NearSamples::add(std::uint32_t edge, double parts) {
     // If there are many intervals, one may cover all of a long edge.
-    const plan::PartRange near = plan::parts_roughly_within(a_->placed, edge, parts, near_b_);
+    const queries::PartRange near = queries::parts_roughly_within(a_->placed, edge, parts, near_b_);
     auto part = static_cast<Part>(near.first);
     for (const simd::ParameterInterval& interval : find_intervals(edge)) {
         part = std::max(part, static_cast<Part>(interval.from * parts));

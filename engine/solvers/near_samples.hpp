@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/base/function_ref.hpp>
-#include <engine/plan/boundary_points.hpp>
+#include <engine/queries/boundary_points.hpp>
 #include <engine/simd/edge_subset.hpp>
 #include <engine/simd/parameter_intervals.hpp>
 #include <engine/simd/point_list.hpp>
@@ -23,8 +23,8 @@ class NearSamples {
 public:
     /// Finds all samples at most `distance` from B's boundary, and hardly any others, in order
     /// along A's rings; consecutive samples of a boundary are at most `spacing` apart (see
-    /// plan::sample_chains). Calls `use()` for each list of samples, at most as many as are located
-    /// at once. Precondition: unless both polygons are small, both are complete.
+    /// queries::sample_chains). Calls `use()` for each list of samples, at most as many as are
+    /// located at once. Precondition: unless both polygons are small, both are complete.
     void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double distance,
               double spacing, FunctionRef<void()> use);
 
@@ -37,7 +37,7 @@ public:
     /// The samples of the list that is to be used.
     [[nodiscard]] const simd::PointList& points() const { return points_; }
     /// The position of sample i on A's boundary.
-    [[nodiscard]] const plan::BoundaryPoint& place(std::size_t i) const { return places_[i]; }
+    [[nodiscard]] const queries::BoundaryPoint& place(std::size_t i) const { return places_[i]; }
 
 private:
     using Part = std::int64_t;  // of an edge; there may be more than 32 bits count
@@ -63,7 +63,7 @@ private:
     std::vector<std::uint32_t> edges_;    // of A
     std::array<simd::ParameterInterval, simd::max_intervals> intervals_;
     simd::PointList points_;
-    std::vector<plan::BoundaryPoint> places_;
+    std::vector<queries::BoundaryPoint> places_;
 };
 
 }  // namespace nearfield::solvers

@@ -1,9 +1,9 @@
 #include <engine/base/interruption.hpp>
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
-#include <engine/plan/overlap_boundary.hpp>
-#include <engine/plan/placed_pair.hpp>
-#include <engine/records/intersection_samples.hpp>
+#include <engine/queries/overlap_boundary.hpp>
+#include <engine/queries/placed_pair.hpp>
+#include <engine/solvers/intersection_samples.hpp>
 #include <engine/solvers/overlap_samples.hpp>
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 namespace nearfield::solvers {
 namespace {
 
-using plan::CheckedQuery;
-using plan::Tile;
-using plan::TileBoundary;
+using queries::CheckedQuery;
+using queries::Tile;
+using queries::TileBoundary;
 
 /// The tiles from `first` on that lie side by side in one region.
 std::span<const Tile> band_of(std::span<const Tile> tiles, std::size_t first) {
@@ -33,22 +33,22 @@ std::span<const Tile> band_of(std::span<const Tile> tiles, std::size_t first) {
 void OverlapSolver::answer(const CheckedQuery& query, Workspace& workspace,
                            IntersectionResult& result) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
-    const plan::PlanLimits& limits = workspace.limits;
+    const queries::QueryLimits& limits = workspace.limits;
     if (!overlaps_.cover(query, limits, result)) {
         return;
     }
-    const plan::Regions& regions = overlaps_.regions();
+    const queries::Regions& regions = overlaps_.regions();
     workspace.memory_of(query, asked.tolerance)
         .require(overlaps_.bytes_of_samples(asked, limits.largest_tile), 2.0);
     regions.require_sides(query.index, asked.tolerance);
     tiles_.clear();
-    regions.cut_into_tiles(query.index, plan::TileKind::overlap, limits.largest_tile, 0, tiles_);
+    regions.for_tiles(limits.largest_tile, 0, [&](const Tile& tile) { tiles_.push_back(tile); });
     find_samples(query, workspace.simplified, result);
     result.area = static_cast<double>(result.count) * result.cell * result.cell;
     result.intersects = intersect(query, workspace.instances, overlap_test_);
 }
 
-void OverlapSolver::find_samples(const CheckedQuery& query, plan::SimplifiedShapes& shapes,
+void OverlapSolver::find_samples(const CheckedQuery& query, queries::SimplifiedShapes& shapes,
                                  IntersectionResult& result) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
     const bool with_runs = !asked.summary_only && asked.kind != IntersectionKind::volume_volume;
@@ -61,7 +61,7 @@ void OverlapSolver::find_samples(const CheckedQuery& query, plan::SimplifiedShap
         for (const Tile& tile : band) {
             checkpoint();
             find_common(query, tile, with_runs, shapes);
-            records::add_summary(tile, summarize(), result);
+            add_summary(tile, summarize(), result);
             if (!asked.summary_only) {
                 append_samples(query, tile, band.size() == 1 ? result.samples : samples_);
             }
@@ -73,18 +73,18 @@ void OverlapSolver::find_samples(const CheckedQuery& query, plan::SimplifiedShap
 }
 
 void OverlapSolver::find_common(const CheckedQuery& query, const Tile& tile, bool with_runs,
-                                plan::SimplifiedShapes& shapes) {
+                                queries::SimplifiedShapes& shapes) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
     const double cell = tile.grid.cell;
     const double slack = query.budget.simplification / cell;
     const double offset = query.budget.offset / cell;
     const auto boundary_of = [&](const geometry::Polygon& polygon, const Pose& pose) {
-        return plan::overlap_boundary(polygon, pose, query.budget, tile, shapes);
+        return queries::overlap_boundary(polygon, pose, query.budget, tile, shapes);
     };
     b_.reset(tile.width, tile.height, geometry::cpu_grid);
     if (asked.kind == IntersectionKind::boundary_boundary) {
         for_offset_polygons(boundary_of(*query.b, query.pose_b), tile, offset, b_,
-                            [this](const plan::EdgeRun&, std::size_t i, std::uint64_t bits) {
+                            [this](const queries::EdgeRun&, std::size_t i, std::uint64_t bits) {
                                 b_.words()[i] |= bits;
                             });
     } else {
@@ -103,22 +103,22 @@ void OverlapSolver::find_common(const CheckedQuery& query, const Tile& tile, boo
     }
     // If the polygons of several edges of A cover a sample, the first counts, as it is drawn first.
     for_offset_polygons(
-        a, tile, offset, a_, [&](const plan::EdgeRun& run, std::size_t i, std::uint64_t bits) {
+        a, tile, offset, a_, [&](const queries::EdgeRun& run, std::size_t i, std::uint64_t bits) {
             const std::uint64_t found = bits & b_.words()[i] & ~a_.words()[i];
             a_.words()[i] |= found;
             if (with_runs) {
-                grid::for_bits(found, [&](std::uint32_t bit) { runs_[64 * i + bit] = run; });
+                for_bits(found, [&](std::uint32_t bit) { runs_[64 * i + bit] = run; });
             }
         });
 }
 
 void OverlapSolver::fill(const TileBoundary& boundary, const Tile& tile, double slack,
-                         grid::Coverage& coverage) {
+                         Coverage& coverage) {
     crossing_.clear();
-    plan::crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
+    queries::crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
     const geometry::FillMesh mesh(tile.width, tile.height, geometry::cpu_grid);
     SparseCheckpoint<256> checkpoint;
-    for (const plan::TileEdge& edge : crossing_) {
+    for (const queries::TileEdge& edge : crossing_) {
         checkpoint.step();
         for (const auto& [x0, y0, x1, y1] : mesh.pieces(edge.a, edge.b)) {
             coverage.invert_left_of({x0, y0}, {x1, y1});
@@ -129,8 +129,7 @@ void OverlapSolver::fill(const TileBoundary& boundary, const Tile& tile, double 
 
 template <class Use>
 void OverlapSolver::for_offset_polygons(const TileBoundary& boundary, const Tile& tile,
-                                        double offset, const grid::Coverage& coverage,
-                                        const Use& use) {
+                                        double offset, const Coverage& coverage, const Use& use) {
     const std::size_t words_per_row = coverage.words_per_row();
     SparseCheckpoint<64> checkpoint;
     boundary.for_offset_edges(tile.width, tile.height, offset, [&](std::uint32_t i) {
@@ -143,18 +142,17 @@ void OverlapSolver::for_offset_polygons(const TileBoundary& boundary, const Tile
         }
         spans_.clear();
         coverage.append_fan(*polygon, spans_);
-        const plan::EdgeRun run{boundary.edge(i).first, boundary.edge(i).count};
-        for (const grid::RowSpan& span : spans_) {
+        const queries::EdgeRun run{boundary.edge(i).first, boundary.edge(i).count};
+        for (const RowSpan& span : spans_) {
             for (std::uint32_t word = span.first / 64; 64 * word < span.end; ++word) {
-                use(run, span.row * words_per_row + word,
-                    grid::bits_between(span.first, span.end, word));
+                use(run, span.row * words_per_row + word, bits_between(span.first, span.end, word));
             }
         }
     });
 }
 
-plan::TileSummary OverlapSolver::summarize() const {
-    plan::TileSummary summary;
+shaders::TileSummary OverlapSolver::summarize() const {
+    shaders::TileSummary summary;
     const std::span<const std::uint64_t> words = a_.words();
     for (std::uint32_t row = 0; row < a_.height(); ++row) {
         for (std::size_t i = 0; i < a_.words_per_row(); ++i) {
@@ -184,10 +182,10 @@ void OverlapSolver::append_samples(const CheckedQuery& query, const Tile& tile,
         const std::size_t before = samples.size();
         for (std::size_t i = 0; i < a_.words_per_row(); ++i) {
             const std::size_t place = row * a_.words_per_row() + i;
-            grid::for_bits(words[place], [&](std::uint32_t bit) {
+            for_bits(words[place], [&](std::uint32_t bit) {
                 samples.push_back(
-                    records::make_sample(query, tile, static_cast<std::uint32_t>(64 * i) + bit, row,
-                                         with_runs ? runs_[64 * place + bit] : plan::EdgeRun{}));
+                    make_sample(query, tile, static_cast<std::uint32_t>(64 * i) + bit, row,
+                                with_runs ? runs_[64 * place + bit] : queries::EdgeRun{}));
             });
         }
         row_counts_.push_back(static_cast<std::uint32_t>(samples.size() - before));

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <engine/grid/coverage.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/plan/overlap_regions.hpp>
-#include <engine/plan/tile_batch.hpp>
-#include <engine/plan/tile_edges.hpp>
+#include <engine/queries/overlap_regions.hpp>
+#include <engine/queries/tile_edges.hpp>
+#include <engine/solvers/coverage.hpp>
 #include <engine/solvers/workspace.hpp>
 #include <nearfield/result.hpp>
 
@@ -21,37 +20,38 @@ namespace nearfield::solvers {
 /// bit. Reuses its memory between batches.
 class OverlapSolver {
 public:
-    void answer(const plan::CheckedQuery& query, Workspace& workspace, IntersectionResult& result);
+    void answer(const queries::CheckedQuery& query, Workspace& workspace,
+                IntersectionResult& result);
 
 private:
     /// Adds the count, box and samples of the tiles of a query.
-    void find_samples(const plan::CheckedQuery& query, plan::SimplifiedShapes& shapes,
+    void find_samples(const queries::CheckedQuery& query, queries::SimplifiedShapes& shapes,
                       IntersectionResult& result);
     /// Finds the samples of a tile, in a_, and if with_runs, the edges of A they belong to.
-    void find_common(const plan::CheckedQuery& query, const plan::Tile& tile, bool with_runs,
-                     plan::SimplifiedShapes& shapes);
-    void fill(const plan::TileBoundary& boundary, const plan::Tile& tile, double slack,
-              grid::Coverage& coverage);
+    void find_common(const queries::CheckedQuery& query, const queries::Tile& tile, bool with_runs,
+                     queries::SimplifiedShapes& shapes);
+    void fill(const queries::TileBoundary& boundary, const queries::Tile& tile, double slack,
+              Coverage& coverage);
     /// Calls `use(run of edges, word, bits)` for the words of `coverage` that each offset polygon
     /// of a boundary covers, in drawing order.
     template <class Use>
-    void for_offset_polygons(const plan::TileBoundary& boundary, const plan::Tile& tile,
-                             double offset, const grid::Coverage& coverage, const Use& use);
-    [[nodiscard]] plan::TileSummary summarize() const;
+    void for_offset_polygons(const queries::TileBoundary& boundary, const queries::Tile& tile,
+                             double offset, const Coverage& coverage, const Use& use);
+    [[nodiscard]] shaders::TileSummary summarize() const;
     /// Appends the samples of a tile row by row, and the number in each row to row_counts_.
-    void append_samples(const plan::CheckedQuery& query, const plan::Tile& tile,
+    void append_samples(const queries::CheckedQuery& query, const queries::Tile& tile,
                         std::vector<IntersectionSample>& samples);
     /// Appends the samples of tiles side by side, row by row through all of them.
-    void append_band(std::span<const plan::Tile> band, IntersectionResult& result);
+    void append_band(std::span<const queries::Tile> band, IntersectionResult& result);
 
-    plan::OverlapRegions overlaps_;
-    std::vector<plan::Tile> tiles_;
+    queries::OverlapRegions overlaps_;
+    std::vector<queries::Tile> tiles_;
     narrowphase::OverlapTest overlap_test_;
-    grid::Coverage a_;
-    grid::Coverage b_;
-    std::vector<plan::TileEdge> crossing_;
-    std::vector<grid::RowSpan> spans_;
-    std::vector<plan::EdgeRun> runs_;          // by cell, for common cells
+    Coverage a_;
+    Coverage b_;
+    std::vector<queries::TileEdge> crossing_;
+    std::vector<RowSpan> spans_;
+    std::vector<queries::EdgeRun> runs_;       // by cell, for common cells
     std::vector<IntersectionSample> samples_;  // of tiles side by side, tile by tile
     std::vector<std::uint32_t> row_counts_;    // by tile and row
     std::vector<std::size_t> tile_starts_;

@@ -1,9 +1,9 @@
 #include <engine/base/interruption.hpp>
 #include <engine/narrowphase/brute_force.hpp>
-#include <engine/plan/error_budget.hpp>
-#include <engine/plan/placed_pair.hpp>
-#include <engine/plan/region.hpp>
-#include <engine/records/nearest_feature.hpp>
+#include <engine/queries/error_budget.hpp>
+#include <engine/queries/grid.hpp>
+#include <engine/queries/placed_pair.hpp>
+#include <engine/solvers/nearest_feature.hpp>
 #include <engine/solvers/penetration.hpp>
 
 #include <cmath>
@@ -14,12 +14,12 @@ namespace nearfield::solvers {
 using geometry::Vector;
 using simd::TransformedEdges;
 
-void PenetrationSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
+void PenetrationSolver::answer(const queries::CheckedQuery& query, Workspace& workspace,
                                PenetrationResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const plan::PlacedPair pair = plan::is_reverse(before_, query)
-                                      ? plan::PlacedPair{before_.placed.b, before_.placed.a}
-                                      : place_pair(query, instances);
+    const queries::PlacedPair pair = queries::is_reverse(before_, query)
+                                         ? queries::PlacedPair{before_.placed.b, before_.placed.a}
+                                         : place_pair(query, instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {
@@ -28,7 +28,7 @@ void PenetrationSolver::answer(const plan::CheckedQuery& query, Workspace& works
     }
     complete_if_near(pair, instances);
     const auto& asked = std::get<PenetrationQuery>(*query.query);
-    plan::QueryMemory memory = workspace.memory_of(query, result.tolerance);
+    queries::QueryMemory memory = workspace.memory_of(query, result.tolerance);
     require_room(query, a, b, memory);
     answer(asked, query, a, b, result);
     before_.placed = pair;
@@ -37,11 +37,11 @@ void PenetrationSolver::answer(const plan::CheckedQuery& query, Workspace& works
     }
 }
 
-void PenetrationSolver::require_room(const plan::CheckedQuery& query, const TransformedEdges& a,
-                                     const TransformedEdges& b, plan::QueryMemory& memory) {
+void PenetrationSolver::require_room(const queries::CheckedQuery& query, const TransformedEdges& a,
+                                     const TransformedEdges& b, queries::QueryMemory& memory) {
     const auto& asked = std::get<PenetrationQuery>(*query.query);
     const double kept = !asked.summary_only ? sizeof(PenetratingPoint) : 0.0;
-    const double rough = plan::max_points(query);
+    const double rough = queries::max_points(query);
     memory.require_alone(kept, rough, [&] {
         if (!a.box.intersects(b.box)) {
             return 0.0;
@@ -52,16 +52,16 @@ void PenetrationSolver::require_room(const plan::CheckedQuery& query, const Tran
     });
 }
 
-void PenetrationSolver::answer(const PenetrationQuery& query, const plan::ShapePair& shapes,
+void PenetrationSolver::answer(const PenetrationQuery& query, const queries::ShapePair& shapes,
                                const TransformedEdges& a, const TransformedEdges& b,
                                PenetrationResult& result) {
     const bool is_sampled = query.points == PenetrationPoints::boundary;
     const Before before = std::exchange(before_, {});
-    const bool reversed = plan::is_reverse(before, shapes);
+    const bool reversed = queries::is_reverse(before, shapes);
     const bool are_near = a.box.intersects(b.box);
     if (!query.summary_only && are_near) {
         result.regions.push_back(
-            plan::region_of(plan::Grid::covering(a.box.intersection(b.box), result.cell)));
+            queries::region_of(queries::Grid::covering(a.box.intersection(b.box), result.cell)));
     }
     if (reversed && !before.intersects) {
         before_ = {shapes, false, is_sampled};
@@ -105,8 +105,8 @@ void PenetrationSolver::find_vertices_inside(const simd::PointArrays& vertices,
 
 void PenetrationSolver::add_deepest(double tolerance, const simd::TransformedEdges& b,
                                     PenetrationResult& result) {
-    const double touching = tolerance * plan::touching_depth;
-    const double margin = tolerance * plan::uniqueness_margin;
+    const double touching = tolerance * shaders::touching_depth;
+    const double margin = tolerance * queries::uniqueness_margin;
     const narrowphase::DeepestPoint deepest = deepest_.find(inside_.arrays(), b, touching, margin);
     if (deepest.count == 0) {
         return;
@@ -138,9 +138,9 @@ bool PenetrationSolver::is_unique(const simd::TransformedEdges& b, const Vector&
 
 void PenetrationSolver::add_records(double tolerance, const simd::TransformedEdges& b,
                                     PenetrationResult& result) {
-    const double touching = tolerance * plan::touching_depth;
+    const double touching = tolerance * shaders::touching_depth;
     const simd::PointArrays points = inside_.arrays();
-    nearest_.find(points, b, tolerance * plan::uniqueness_margin);
+    nearest_.find(points, b, tolerance * queries::uniqueness_margin);
     const simd::NearestArrays& nearest = nearest_.arrays();
     double deepest = result.deepest.depth;
     std::size_t deepest_record = result.points.size();
@@ -175,7 +175,7 @@ void PenetrationSolver::write(const WayOut& way, const simd::TransformedEdges& b
     record.depth = way.depth;
     record.direction = geometry::to_public((way.exit - way.point) / way.depth);
     record.nearest = geometry::to_public(way.exit);
-    record.feature = records::feature_at(b.placed, way.edge, way.parameter);
+    record.feature = feature_at(b.placed, way.edge, way.parameter);
     record.unique = way.unique;
 }
 

@@ -4,7 +4,7 @@
 #include <engine/narrowphase/deepest_point.hpp>
 #include <engine/narrowphase/nearest_points.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/plan/placed_pair.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/simd/point_list.hpp>
 #include <engine/simd/transformed_edges.hpp>
 #include <engine/solvers/inside_samples.hpp>
@@ -25,27 +25,28 @@ public:
     /// Forgets the previous pair: shapes may have moved or deformed since.
     void begin_batch() { before_ = {}; }
 
-    void answer(const plan::CheckedQuery& query, Workspace& workspace, PenetrationResult& result);
+    void answer(const queries::CheckedQuery& query, Workspace& workspace,
+                PenetrationResult& result);
 
     /// The same for shapes in their places, `a` and `b`, which permit the tolerance and, unless
     /// both are small, are complete if their boxes intersect.
-    void answer(const PenetrationQuery& query, const plan::ShapePair& shapes,
+    void answer(const PenetrationQuery& query, const queries::ShapePair& shapes,
                 const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                 PenetrationResult& result);
 
 private:
     /// The pair answered last. Queries in both directions usually follow each other, and both share
     /// the answer to whether the shapes intersect.
-    struct Before : plan::ShapePair {
+    struct Before : queries::ShapePair {
         bool intersects = false;
-        bool is_sampled = false;    // the crossings were found
-        plan::PlacedPair placed{};  // of a workspace
+        bool is_sampled = false;       // the crossings were found
+        queries::PlacedPair placed{};  // of a workspace
     };
 
     /// Throws StatusException (too_large) if there may be more points than the batch has memory
     /// for.
-    void require_room(const plan::CheckedQuery& query, const simd::TransformedEdges& a,
-                      const simd::TransformedEdges& b, plan::QueryMemory& memory);
+    void require_room(const queries::CheckedQuery& query, const simd::TransformedEdges& a,
+                      const simd::TransformedEdges& b, queries::QueryMemory& memory);
     /// Finds the vertices of A inside B.
     void find_vertices_inside(const simd::PointArrays& vertices, const simd::TransformedEdges& b);
     /// A point of A and its way out of B.
@@ -58,7 +59,7 @@ private:
         bool unique;
     };
 
-    // Points of at most the depth `touching` touch B (plan::touching_depth).
+    // Points of at most the depth `touching` touch B (shaders::touching_depth).
 
     /// Adds the points of inside_ to the summary if only the deepest point is requested.
     void add_deepest(double tolerance, const simd::TransformedEdges& b, PenetrationResult& result);

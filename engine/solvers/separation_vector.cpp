@@ -1,14 +1,14 @@
-#include <engine/plan/placed_pair.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/solvers/separation_vector.hpp>
 
 #include <utility>
 
 namespace nearfield::solvers {
 
-void SeparationVectorSolver::answer(const plan::CheckedQuery& query, Workspace& workspace,
+void SeparationVectorSolver::answer(const queries::CheckedQuery& query, Workspace& workspace,
                                     SeparationVectorResult& result) {
     simd::TransformedInstances& instances = workspace.instances;
-    const plan::PlacedPair pair = place_pair(query, instances);
+    const queries::PlacedPair pair = place_pair(query, instances);
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {

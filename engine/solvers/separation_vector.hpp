@@ -9,7 +9,7 @@ namespace nearfield::solvers {
 /// Answers separation-vector queries. Reuses its memory between batches.
 class SeparationVectorSolver {
 public:
-    void answer(const plan::CheckedQuery& query, Workspace& workspace,
+    void answer(const queries::CheckedQuery& query, Workspace& workspace,
                 SeparationVectorResult& result);
 
 private:

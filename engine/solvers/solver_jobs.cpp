@@ -1,7 +1,7 @@
 #include <engine/base/interruption.hpp>
-#include <engine/plan/boundary_points.hpp>
-#include <engine/plan/empty_result.hpp>
-#include <engine/plan/query_timer.hpp>
+#include <engine/queries/boundary_points.hpp>
+#include <engine/queries/empty_result.hpp>
+#include <engine/queries/query_timer.hpp>
 #include <engine/solvers/solver_jobs.hpp>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace nearfield::solvers {
 namespace {
 
-using plan::CheckedQuery;
+using queries::CheckedQuery;
 
 /// About ten microseconds of work: a smaller part is not worth a job.
 constexpr std::size_t edges_of_a_part = 1024;
@@ -21,11 +21,11 @@ std::size_t weight_of(const CheckedQuery& query) {
     if (const auto* const penetration = std::get_if<PenetrationQuery>(query.query)) {
         return penetration->points == PenetrationPoints::vertices
                    ? edges
-                   : edges + static_cast<std::size_t>(plan::max_points(query));
+                   : edges + static_cast<std::size_t>(queries::max_points(query));
     }
     if (std::holds_alternative<ContactQuery>(*query.query)) {
-        return edges + static_cast<std::size_t>(plan::max_samples(*query.a, query.budget.cell) +
-                                                plan::max_samples(*query.b, query.budget.cell));
+        return edges + static_cast<std::size_t>(queries::max_samples(*query.a, query.budget.cell) +
+                                                queries::max_samples(*query.b, query.budget.cell));
     }
     const bool looks_once = std::holds_alternative<IntersectionTestQuery>(*query.query) ||
                             std::holds_alternative<ContainmentQuery>(*query.query) ||
@@ -36,7 +36,7 @@ std::size_t weight_of(const CheckedQuery& query) {
 
 }  // namespace
 
-SolverJobs::SolverJobs(const plan::PlanLimits& limits, const JobSystem& jobs)
+SolverJobs::SolverJobs(const queries::QueryLimits& limits, const JobSystem& jobs)
     : limits_(limits), jobs_(jobs) {
     for (std::uint32_t i = 0; i < jobs_.count(); ++i) {
         solvers_.push_back(std::make_unique<Solvers>(limits_));
@@ -50,7 +50,8 @@ void SolverJobs::divide(std::span<const CheckedQuery> queries) {
     for (std::size_t i = 0; i < queries.size(); ++i) {
         weight += weight_of(queries[i]);
         // The solver of a pair knows half of the answer the other way round.
-        const bool goes_on = i + 1 < queries.size() && plan::is_reverse(queries[i], queries[i + 1]);
+        const bool goes_on =
+            i + 1 < queries.size() && queries::is_reverse(queries[i], queries[i + 1]);
         if (weight >= edges_of_a_part && !goes_on) {
             ends_.push_back(i + 1);
             weight = 0;
@@ -66,7 +67,7 @@ void SolverJobs::answer(std::span<const CheckedQuery> queries, double other_byte
     if (queries.empty()) {
         return;
     }
-    plan::MemoryBudget memory(limits_);
+    queries::MemoryBudget memory(limits_);
     memory.add(other_bytes);
     ends_.assign(1, queries.size());
     if (jobs_.count() > 1) {
@@ -80,11 +81,11 @@ void SolverJobs::answer(std::span<const CheckedQuery> queries, double other_byte
         for (std::size_t part = number; part < ends_.size(); part += jobs) {
             for (std::size_t i = part == 0 ? 0 : ends_[part - 1]; i < ends_[part]; ++i) {
                 AnyResult& result = results[queries[i].index];
-                const plan::QueryTimer timer(times, queries[i].index, &QueryTime::answer);
+                const queries::QueryTimer timer(times, queries[i].index, &QueryTime::answer);
                 try {
                     solvers.answer(queries[i], result);
                 } catch (const Interrupted& interrupted) {
-                    plan::cut_short(interrupted.status(), result);
+                    queries::cut_short(interrupted.status(), result);
                 }
             }
         }

@@ -18,20 +18,20 @@ namespace nearfield::solvers {
 /// batch after the other.
 class SolverJobs {
 public:
-    SolverJobs(const plan::PlanLimits& limits, const JobSystem& jobs);
+    SolverJobs(const queries::QueryLimits& limits, const JobSystem& jobs);
 
     /// Writes the results of checked queries of a batch. `results` and `times`: of the whole batch;
     /// no times if nobody asked for them. `other_bytes`: what the results of its other queries may
     /// need. Once the call is interrupted, results are empty and say so. Rethrows the exception of
     /// a job, the first job's if several threw: StatusException (too_large) if the batch needs more
     /// memory than the limit.
-    void answer(std::span<const plan::CheckedQuery> queries, double other_bytes,
+    void answer(std::span<const queries::CheckedQuery> queries, double other_bytes,
                 std::span<QueryTime> times, std::vector<AnyResult>& results);
 
 private:
-    void divide(std::span<const plan::CheckedQuery> queries);
+    void divide(std::span<const queries::CheckedQuery> queries);
 
-    plan::PlanLimits limits_;
+    queries::QueryLimits limits_;
     Jobs jobs_;
     std::vector<std::unique_ptr<Solvers>> solvers_;  // one per job
     std::vector<std::size_t> ends_;                  // of the parts of a batch, by query

@@ -5,14 +5,14 @@
 
 namespace nearfield::solvers {
 
-void Solvers::begin_batch(plan::MemoryBudget& memory) {
+void Solvers::begin_batch(queries::MemoryBudget& memory) {
     workspace_.instances.begin_batch();
     workspace_.simplified.clear();
     workspace_.memory = &memory;
     static_cast<PenetrationSolver&>(solvers_).begin_batch();
 }
 
-void Solvers::answer(const plan::CheckedQuery& query, AnyResult& any) {
+void Solvers::answer(const queries::CheckedQuery& query, AnyResult& any) {
     std::visit(
         [&](auto& result) {
             checkpoint();

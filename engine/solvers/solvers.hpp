@@ -24,16 +24,16 @@ struct SolverOfEachKind : Solver... {
 /// thread. Keeps its memory from batch to batch.
 class Solvers {
 public:
-    explicit Solvers(const plan::PlanLimits& limits) { workspace_.limits = limits; }
+    explicit Solvers(const queries::QueryLimits& limits) { workspace_.limits = limits; }
 
     /// Forgets all shapes, which may have moved or deformed since; large ones that did not are
     /// kept. `memory`: what results may take; it must stay. Precondition: polygons of different
     /// batches have different addresses or revisions.
-    void begin_batch(plan::MemoryBudget& memory);
+    void begin_batch(queries::MemoryBudget& memory);
 
     /// Writes the result of a query; an error of this query alone is stated there. Throws
     /// StatusException (too_large) if the batch needs more memory than the limit.
-    void answer(const plan::CheckedQuery& query, AnyResult& any);
+    void answer(const queries::CheckedQuery& query, AnyResult& any);
 
 private:
     Workspace workspace_;

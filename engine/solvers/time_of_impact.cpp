@@ -1,4 +1,4 @@
-#include <engine/plan/check_query.hpp>
+#include <engine/queries/check_query.hpp>
 #include <engine/solvers/closest_points.hpp>
 #include <engine/solvers/time_of_impact.hpp>
 
@@ -25,15 +25,16 @@ ImpactState state_of(toi::Impact::Kind kind) {
 
 }  // namespace
 
-void TimeOfImpactSolver::answer(const plan::CheckedQuery& query, Workspace& /*workspace*/,
+void TimeOfImpactSolver::answer(const queries::CheckedQuery& query, Workspace& /*workspace*/,
                                 TimeOfImpactResult& result) {
     const auto& asked = std::get<TimeOfImpactQuery>(*query.query);
     const toi::Motion a(*query.a, asked.a.pose, asked.end_a);
     const toi::Motion b(*query.b, asked.b.pose, asked.end_b);
     const double tolerance = asked.tolerance;
-    result.status = plan::check_deviations(tolerance, query.deviations, query.budget.bound);
+    result.status = queries::check_deviations(tolerance, query.deviations, query.budget.bound);
     if (result.status.ok()) {
-        result.status = plan::check_resolution(tolerance, std::max(a.magnitude(), b.magnitude()));
+        result.status =
+            queries::check_resolution(tolerance, std::max(a.magnitude(), b.magnitude()));
     }
     if (!result.status.ok()) {
         return;

@@ -10,7 +10,8 @@ namespace nearfield::solvers {
 /// Answers time-of-impact queries. Reuses its memory between batches.
 class TimeOfImpactSolver {
 public:
-    void answer(const plan::CheckedQuery& query, Workspace& workspace, TimeOfImpactResult& result);
+    void answer(const queries::CheckedQuery& query, Workspace& workspace,
+                TimeOfImpactResult& result);
 
 private:
     toi::ConservativeAdvancement finder_;

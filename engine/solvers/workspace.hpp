@@ -1,9 +1,9 @@
 #pragma once
 
-#include <engine/plan/checked_query.hpp>
-#include <engine/plan/memory_budget.hpp>
-#include <engine/plan/plan_limits.hpp>
-#include <engine/plan/simplified_shapes.hpp>
+#include <engine/queries/checked_query.hpp>
+#include <engine/queries/memory_budget.hpp>
+#include <engine/queries/query_limits.hpp>
+#include <engine/queries/simplified_shapes.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
 namespace nearfield::solvers {
@@ -11,13 +11,13 @@ namespace nearfield::solvers {
 /// What the solvers of one thread share. `instances` and `simplified` hold what was made of shapes
 /// for the queries of a batch so far.
 struct Workspace {
-    plan::PlanLimits limits;
+    queries::QueryLimits limits;
     simd::TransformedInstances instances;
-    plan::SimplifiedShapes simplified;
-    plan::MemoryBudget* memory = nullptr;  ///< of the batch
+    queries::SimplifiedShapes simplified;
+    queries::MemoryBudget* memory = nullptr;  ///< of the batch
 
-    [[nodiscard]] plan::QueryMemory memory_of(const plan::CheckedQuery& query,
-                                              double tolerance) const {
+    [[nodiscard]] queries::QueryMemory memory_of(const queries::CheckedQuery& query,
+                                                 double tolerance) const {
         return {*memory, query.index, tolerance};
     }
 };

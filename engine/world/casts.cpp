@@ -1,8 +1,8 @@
 // When moving shapes first touch a world.
 
-#include <engine/context/call_within.hpp>
-#include <engine/localize/hierarchy.hpp>
-#include <engine/plan/checked_query.hpp>
+#include <engine/batch/call_within.hpp>
+#include <engine/geometry/hierarchy.hpp>
+#include <engine/queries/checked_query.hpp>
 #include <engine/toi/swept_box.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/world_state.hpp>
@@ -52,7 +52,7 @@ struct World::State::Casts {
         all.boxes().for_meeting(geometry::grown(box, all.max_rounding()), [&](std::uint32_t index) {
             // Who is a candidate must not depend on the rounding of others.
             if (all.passes(index, filter) &&
-                localize::boxes_meet(all.box(index), box, all.rounding(index))) {
+                geometry::boxes_meet(all.box(index), box, all.rounding(index))) {
                 found.push_back(index);
             }
         });
@@ -70,9 +70,9 @@ struct World::State::Casts {
         impact.technique = Technique::cpu;
         impact.contact_distance = query.contact_distance;
         const AnyQuery any = impact;
-        plan::CheckedQuery checked;
-        if (plan::check(0, any, {&polygon, &all.polygon(index)}, {}, plan::Submissions::any,
-                        checked, job.result)) {
+        queries::CheckedQuery checked;
+        if (queries::check(0, any, {&polygon, &all.polygon(index)}, {}, queries::Submissions::any,
+                           checked, job.result)) {
             auto& result = std::get<TimeOfImpactResult>(job.result);
             job.impacts.answer(checked, job.workspace, result);
         }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <engine/base/status_exception.hpp>
-#include <engine/context/implementation.hpp>
+#include <engine/batch/context_implementation.hpp>
 #include <engine/geometry/ring_check.hpp>
-#include <engine/plan/check_query.hpp>
+#include <engine/queries/check_query.hpp>
 #include <engine/world/instances.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/shape.hpp>
@@ -40,10 +40,10 @@ template <class Query>
 void require_answered(const char* call, const Query& query,
                       const Context::Implementation& context) {
     const DeviceTechniques& techniques = context.techniques();
-    const plan::AvailableTechniques available{.device = context.device() != nullptr,
-                                              .raster = techniques.raster,
-                                              .compute = techniques.compute};
-    if (const Status status = plan::check_query(query, available); !status.ok()) {
+    const queries::AvailableTechniques available{.device = context.device() != nullptr,
+                                                 .raster = techniques.raster,
+                                                 .compute = techniques.compute};
+    if (const Status status = queries::check_query(query, available); !status.ok()) {
         throw StatusException({status.code(), std::string(call) + ": " + status.message()});
     }
 }
@@ -63,7 +63,7 @@ inline void require_lengths(const char* call, const char* what, std::size_t in, 
 }
 
 inline void require_pose(const char* call, const char* what, std::size_t i, const Pose& pose) {
-    if (Status status = plan::check_pose(pose, what); !status.ok()) {
+    if (Status status = queries::check_pose(pose, what); !status.ok()) {
         refuse(call, status.message() + " (number " + std::to_string(i) + ")");
     }
 }

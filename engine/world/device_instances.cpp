@@ -1,9 +1,9 @@
 #include <engine/base/interruption.hpp>
+#include <engine/device_input/point_search.hpp>
 #include <engine/geometry/angle_kernels.hpp>
-#include <engine/plan/boundary_points.hpp>
-#include <engine/plan/check_query.hpp>
-#include <engine/plan/error_budget.hpp>
-#include <engine/plan/point_search.hpp>
+#include <engine/queries/boundary_points.hpp>
+#include <engine/queries/check_query.hpp>
+#include <engine/queries/error_budget.hpp>
 #include <engine/world/device_instances.hpp>
 
 #include <algorithm>
@@ -58,12 +58,12 @@ void DeviceInstances::list(const char* call, batch::ShapeStore& shapes,
             end_index_ = index + 1;
         }
     }
-    if (indices_.size() > plan::max_instances) {
+    if (indices_.size() > shaders::max_instances) {
         throw StatusException(
             {StatusCode::too_large, std::string(call) + ": the world has " +
                                         std::to_string(indices_.size()) +
                                         " instances, of which the device takes at most " +
-                                        std::to_string(plan::max_instances)});
+                                        std::to_string(shaders::max_instances)});
     }
     std::sort(indices_.begin(), indices_.end(), [&](std::uint32_t i, std::uint32_t j) {
         return instances.number(i) < instances.number(j);
@@ -90,18 +90,18 @@ void DeviceInstances::place(const world::Instances& instances,
         entry.instance.pose = instance.pose;
         moves_[numbers[i]] = instances.moves(index);
         const ShapeOfInstances& shape = shapes_of_[entry.instance.shape.index];
-        plan::SearchInstanceData data = shape.data;
+        shaders::SearchInstanceData data = shape.data;
         data.category = entry.category = instance.category;
         data.mask = entry.mask = instance.mask;
         data.element = index;
         const auto [place, magnitude] =
-            plan::set_place(*shape.polygon, instance.pose, turns[i], origin_, data);
+            device_input::set_place(*shape.polygon, instance.pose, turns[i], origin_, data);
         entry.place = place;
-        data.box_rounding = plan::rounding_at(magnitude);
+        data.box_rounding = device_input::rounding_at(magnitude);
         data.rounding = has_tolerance ? 0.0F : data.box_rounding;
         const bool is_resolved = question_->resolved == 0.0 ||
-                                 question_->resolved >= plan::smallest_tolerance(magnitude);
-        data.left_to_cpu |= is_resolved ? 0U : plan::left_by_place;
+                                 question_->resolved >= queries::smallest_tolerance(magnitude);
+        data.left_to_cpu |= is_resolved ? 0U : shaders::left_by_place;
         buffers.set(numbers[i], data);
     }
 }
@@ -134,20 +134,20 @@ void DeviceInstances::place_each_moved(const world::Instances& instances,
 /// the tolerance, it has more samples than are searched, or it is so small or large that floats do
 /// not hold what is computed.
 bool DeviceInstances::is_for_cpu(const geometry::Polygon& polygon) const {
-    const double unit = plan::unit_length_of(polygon);
+    const double unit = device_input::unit_length_of(polygon);
     if (unit < smallest_unit || unit > largest_unit) {
         return true;
     }
-    if (question_->goal == plan::PairGoal::tests) {
+    if (question_->goal == device_input::PairGoal::tests) {
         return false;
     }
     if (question_->samples &&
-        plan::max_samples(polygon, question_->cell) > plan::max_searched_points) {
+        queries::max_samples(polygon, question_->cell) > queries::max_searched_points) {
         return true;
     }
-    const plan::Deviations both{polygon.deviation(), polygon.deviation()};
-    return !plan::check_deviations(question_->tolerance, both,
-                                   plan::pair_budget(*query_, both).bound)
+    const queries::Deviations both{polygon.deviation(), polygon.deviation()};
+    return !queries::check_deviations(question_->tolerance, both,
+                                      device_input::pair_budget(*query_, both).bound)
                 .ok();
 }
 
@@ -162,12 +162,12 @@ const DeviceInstances::ShapeOfInstances& DeviceInstances::add_shape(batch::Shape
     }
     const geometry::Polygon& polygon = *shapes.hold(handle, held_);
     const bool is_left_to_cpu = is_for_cpu(polygon);
-    shape.data = plan::data_of_shape(polygon);
-    shape.data.left_to_cpu = is_left_to_cpu ? plan::left_by_shape : 0;
+    shape.data = device_input::data_of_shape(polygon);
+    shape.data.left_to_cpu = is_left_to_cpu ? shaders::left_by_shape : 0;
     shape.data.shape = shapes_.place(polygon);
     shape.data.parts = question_->samples && !is_left_to_cpu
                            ? shapes_.place_parts(polygon, question_->cell)
-                           : plan::no_parts;
+                           : shaders::no_parts;
     shape.polygon = &polygon;
     return shape;
 }
@@ -192,13 +192,13 @@ void DeviceInstances::place_all(batch::ShapeStore& shapes, const world::Instance
     }
     origin_ = origin ? *origin : Vector{median(places_, &Vector2::x), median(places_, &Vector2::y)};
     place_each_moved(instances, buffers);
-    plan::PairQueryData all;
+    shaders::PairQueryData all;
     all.cell = static_cast<float>(cell);
-    all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
+    all.rival = static_cast<float>(cell / std::numbers::sqrt2 * queries::uniqueness_margin);
     all.touching =
-        static_cast<float>(question_->tolerance * static_cast<double>(plan::touching_depth));
-    all.reach = plan::rounded_up(question_->reach);
-    all.is_test = question_->goal == plan::PairGoal::tests ? 1 : 0;
+        static_cast<float>(question_->tolerance * static_cast<double>(shaders::touching_depth));
+    all.reach = device_input::rounded_up(question_->reach);
+    all.is_test = question_->goal == device_input::PairGoal::tests ? 1 : 0;
     all.is_once = question_->is_once ? 1 : 0;
     buffers.set_query(all);
     order_soon();
@@ -252,9 +252,10 @@ void DeviceInstances::order(const world::Instances& instances, bool may_move,
 void DeviceInstances::take_pose(std::uint32_t number, const Pose& pose, const SineCosine& turn) {
     Entry& entry = entries_[number];
     entry.instance.pose = pose;
-    plan::SearchInstanceData unused;
+    shaders::SearchInstanceData unused;
     entry.place =
-        plan::set_place(*polygon_of(entry.instance.shape), pose, turn, origin_, unused).place;
+        device_input::set_place(*polygon_of(entry.instance.shape), pose, turn, origin_, unused)
+            .place;
 }
 
 }  // namespace nearfield

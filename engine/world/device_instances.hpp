@@ -1,10 +1,10 @@
 #pragma once
 
 #include <engine/batch/shape_store.hpp>
+#include <engine/device_input/pair_question.hpp>
+#include <engine/device_input/pair_search.hpp>
+#include <engine/device_input/search_shapes.hpp>
 #include <engine/geometry/hilbert_curve.hpp>
-#include <engine/plan/pair_question.hpp>
-#include <engine/plan/pair_search.hpp>
-#include <engine/plan/search_shapes.hpp>
 #include <engine/render/instance_buffers.hpp>
 #include <engine/world/instances.hpp>
 #include <nearfield/query.hpp>
@@ -40,13 +40,13 @@ public:
     };
 
     /// `query`: what the question is of; both have to stay.
-    DeviceInstances(const AnyQuery& query, const plan::PairQuestion& question)
+    DeviceInstances(const AnyQuery& query, const device_input::PairQuestion& question)
         : query_(&query), question_(&question) {}
 
     /// A shape of instances. Its polygon is held; null: it has none.
     struct ShapeOfInstances {
         const geometry::Polygon* polygon = nullptr;
-        plan::SearchInstanceData data;  // what all its instances have alike
+        shaders::SearchInstanceData data;  // what all its instances have alike
     };
 
     /// Forgets all instances. `shapes`: that they were of; null: there are none.
@@ -83,7 +83,7 @@ public:
         return shapes_of_[shape.index].polygon;
     }
     [[nodiscard]] const geometry::Vector& origin() const { return origin_; }
-    [[nodiscard]] const plan::SearchShapes& shapes() const { return shapes_; }
+    [[nodiscard]] const device_input::SearchShapes& shapes() const { return shapes_; }
     /// Differs after instances were listed anew.
     [[nodiscard]] std::uint64_t membership() const { return membership_; }
     [[nodiscard]] std::uint64_t shapes_revision() const { return shapes_revision_; }
@@ -106,9 +106,9 @@ private:
                    const std::optional<geometry::Vector>& origin, render::InstanceBuffers& buffers);
 
     const AnyQuery* query_;
-    const plan::PairQuestion* question_;
+    const device_input::PairQuestion* question_;
     geometry::Vector origin_ = geometry::Vector::Zero();
-    plan::SearchShapes shapes_;
+    device_input::SearchShapes shapes_;
     batch::ShapeStore::Held held_;
     std::vector<Entry> entries_;
     std::vector<std::uint64_t> moves_;         // of these, in one piece

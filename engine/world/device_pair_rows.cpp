@@ -1,8 +1,8 @@
 // How the rows of pairs that the device found are read.
 
-#include <engine/localize/hierarchy.hpp>
-#include <engine/plan/pair_search.hpp>
-#include <engine/plan/placed_pair.hpp>
+#include <engine/device_input/pair_search.hpp>
+#include <engine/geometry/hierarchy.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/device_pairs.hpp>
 
@@ -34,7 +34,7 @@ const AnyResult* DevicePairs::find_decided(std::uint32_t row) const {
                : nullptr;
 }
 
-AnyQuery DevicePairs::query_on_cpu(const plan::PairRowData& data, bool with_records) const {
+AnyQuery DevicePairs::query_on_cpu(const shaders::PairRowData& data, bool with_records) const {
     AnyQuery on_cpu = query_;
     std::visit(
         [&](auto& query) {
@@ -54,30 +54,30 @@ AnyQuery DevicePairs::query_on_cpu(const plan::PairRowData& data, bool with_reco
     return on_cpu;
 }
 
-const AnyResult& DevicePairs::answer_on_cpu(const plan::PairRowData& data, bool with_records) {
+const AnyResult& DevicePairs::answer_on_cpu(const shaders::PairRowData& data, bool with_records) {
     cpu_queries_.assign(1, query_on_cpu(data, with_records));
     context_->ring().answer(
         cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, cpu_results_);
     return cpu_results_.results.front();
 }
 
-const plan::PlannedQuery& DevicePairs::plan_pair(const plan::PairRowData& data) {
+const device_input::PlannedQuery& DevicePairs::plan_pair(const shaders::PairRowData& data) {
     const PairInstance& a = instances_[data.a];
     const PairInstance& b = instances_[data.b];
-    plan::PlannedQuery& planned = of_a_;
+    device_input::PlannedQuery& planned = of_a_;
     planned.query = &query_;
     planned.a = polygon_of(a.instance.shape);
     planned.b = polygon_of(b.instance.shape);
     planned.pose_a = a.instance.pose;
     planned.pose_b = b.instance.pose;
     planned.deviations = {planned.a->deviation(), planned.b->deviation()};
-    planned.budget = plan::pair_budget(query_, planned.deviations);
+    planned.budget = device_input::pair_budget(query_, planned.deviations);
     planned.technique = Technique::compute;
-    auto& points = planned.work.emplace<plan::PlannedPoints>();
-    points.source = plan::PointSource::device;
+    auto& points = planned.work.emplace<device_input::PlannedPoints>();
+    points.source = device_input::PointSource::device;
     points.outside = question_.reach > 0.0;
     points.margin =
-        plan::margin_of_pair(a.place, planned.a->radius(), b.place, planned.b->radius());
+        device_input::margin_of_pair(a.place, planned.a->radius(), b.place, planned.b->radius());
     if (poses_) {
         points.margin += 2.0 * (rounding_of(a) + rounding_of(b));
     }
@@ -86,17 +86,17 @@ const plan::PlannedQuery& DevicePairs::plan_pair(const plan::PairRowData& data) 
 
 void DevicePairs::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
     const std::uint32_t number = device_row(index);
-    const plan::PairRowData data = pair_of(number);
+    const shaders::PairRowData data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<PenetrationResult>(*decided));
         return;
     }
-    if ((data.count & plan::row_to_resolve) != 0) {
+    if ((data.count & shaders::row_to_resolve) != 0) {
         fill(row, data, std::get<PenetrationResult>(answer_on_cpu(data, false)));
         return;
     }
-    const plan::PlannedQuery& planned = plan_pair(data);
-    const readback::PenetrationSummary summary =
+    const device_input::PlannedQuery& planned = plan_pair(data);
+    const batch::PenetrationSummary summary =
         resolver_.summarize_penetration(planned, {*planned.a, planned.pose_a},
                                         {*planned.b, planned.pose_b}, data, question_.tolerance);
     PenetrationResult result;
@@ -108,7 +108,7 @@ void DevicePairs::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
 }
 
 void DevicePairs::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
-    const plan::PairRowData data = pair_of(device_row(index));
+    const shaders::PairRowData data = pair_of(device_row(index));
     IntersectionTestResult result;
     result.intersects = true;
     for (const std::uint32_t instance : {data.a, data.b}) {
@@ -116,27 +116,27 @@ void DevicePairs::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) 
         const geometry::Polygon& polygon = *polygon_of(entry.instance.shape);
         const geometry::TransformedPolygon placed(polygon, entry.instance.pose);
         result.error_bound +=
-            localize::placement_rounding(placed, placed.box()) + polygon.deviation();
+            geometry::placement_rounding(placed, placed.box()) + polygon.deviation();
     }
     fill(row, data, result);
 }
 
 void DevicePairs::records(std::uint32_t index, std::vector<PenetratingPoint>& records) {
     const std::uint32_t number = device_row(index);
-    const plan::PairRowData data = pair_of(number);
+    const shaders::PairRowData data = pair_of(number);
     // As row() has it.
-    if (find_decided(number) != nullptr || (data.count & plan::row_to_resolve) != 0) {
+    if (find_decided(number) != nullptr || (data.count & shaders::row_to_resolve) != 0) {
         records = std::get<PenetrationResult>(answer_on_cpu(data, true)).points;
         return;
     }
-    const plan::PlannedQuery& planned = plan_pair(data);
+    const device_input::PlannedQuery& planned = plan_pair(data);
     resolver_.begin(planned, {*planned.a, planned.pose_a}, {*planned.b, planned.pose_b},
                     points_of(number, data.first_point, data.point_count));
     static_cast<void>(resolver_.list_penetrations(question_.tolerance, records));
 }
 
 /// Both directions of the pair, with the points that the device found.
-void DevicePairs::find_contacts(const plan::PairRowData& data, std::uint32_t row) {
+void DevicePairs::find_contacts(const shaders::PairRowData& data, std::uint32_t row) {
     of_b_ = plan_pair(data);
     std::swap(of_b_.a, of_b_.b);
     std::swap(of_b_.pose_a, of_b_.pose_b);
@@ -146,7 +146,7 @@ void DevicePairs::find_contacts(const plan::PairRowData& data, std::uint32_t row
                           of_a_.budget.cell, found_contacts_);
 }
 
-ContactResult& DevicePairs::contacts_of(const plan::PairRowData& data, std::uint32_t row) {
+ContactResult& DevicePairs::contacts_of(const shaders::PairRowData& data, std::uint32_t row) {
     contacts_.manifold.clear();
     contacts_.points.clear();
     if (find_decided(row) != nullptr) {
@@ -161,23 +161,23 @@ ContactResult& DevicePairs::contacts_of(const plan::PairRowData& data, std::uint
     return contacts_;
 }
 
-bool DevicePairs::do_intersect(const plan::PairRowData& data) {
-    if ((data.count & plan::row_intersects) != 0) {
+bool DevicePairs::do_intersect(const shaders::PairRowData& data) {
+    if ((data.count & shaders::row_intersects) != 0) {
         return true;
     }
     edges_.clear();
-    return plan::intersect(plan_pair(data), edges_, overlap_test_);
+    return queries::intersect(plan_pair(data), edges_, overlap_test_);
 }
 
 void DevicePairs::row(std::uint32_t index, PairRow<ContactQuery>& row) {
     const std::uint32_t number = device_row(index);
-    const plan::PairRowData data = pair_of(number);
+    const shaders::PairRowData data = pair_of(number);
     if (const AnyResult* const decided = find_decided(number)) {
         fill(row, data, std::get<ContactResult>(*decided));
         return;
     }
-    contacts_.count = data.count & plan::row_count_mask;
-    if ((data.count & plan::row_to_resolve) != 0) {
+    contacts_.count = data.count & shaders::row_count_mask;
+    if ((data.count & shaders::row_to_resolve) != 0) {
         find_contacts(data, number);
         contacts_.count = found_contacts_.count();
     }
@@ -186,7 +186,7 @@ void DevicePairs::row(std::uint32_t index, PairRow<ContactQuery>& row) {
         return polygon_of(instances_[instance].instance.shape)->deviation();
     };
     contacts_.error_bound =
-        plan::pair_budget(query_, {deviation_of(data.a), deviation_of(data.b)}).bound;
+        device_input::pair_budget(query_, {deviation_of(data.a), deviation_of(data.b)}).bound;
     fill(row, data, contacts_);
 }
 

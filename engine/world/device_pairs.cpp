@@ -2,11 +2,11 @@
 
 #include <engine/base/interruption.hpp>
 #include <engine/base/stopwatch.hpp>
-#include <engine/localize/hierarchy.hpp>
-#include <engine/plan/check_query.hpp>
-#include <engine/plan/check_target.hpp>
-#include <engine/plan/pair_search.hpp>
-#include <engine/plan/placed_pair.hpp>
+#include <engine/device_input/check_target.hpp>
+#include <engine/device_input/pair_search.hpp>
+#include <engine/geometry/hierarchy.hpp>
+#include <engine/queries/check_query.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/device_pairs.hpp>
 #include <nearfield/portable_math.hpp>
@@ -21,7 +21,7 @@
 namespace nearfield {
 
 DevicePairs::DevicePairs(const AnyQuery& query, double reach, Timings& timings)
-    : query_(query), timings_(timings), question_(plan::pair_question(query, reach)) {}
+    : query_(query), timings_(timings), question_(device_input::pair_question(query, reach)) {}
 
 DevicePairs::~DevicePairs() {
     if (context_ != nullptr) {
@@ -79,18 +79,18 @@ void DevicePairs::start_anew() {
 }
 
 /// Whether the pair is one that a PairTable asks about: the boxes of the device are larger.
-bool DevicePairs::boxes_meet(const plan::PairRowData& data) const {
+bool DevicePairs::boxes_meet(const shaders::PairRowData& data) const {
     const auto bounds_of = [this](std::uint32_t number) {
         const PairInstance& entry = instances_[number];
-        return localize::bounds_of({*polygon_of(entry.instance.shape), entry.instance.pose});
+        return geometry::bounds_of({*polygon_of(entry.instance.shape), entry.instance.pose});
     };
     // In the same order for both rows of a pair: the sums are rounded.
-    return localize::may_meet(bounds_of(std::min(data.a, data.b)),
+    return geometry::may_meet(bounds_of(std::min(data.a, data.b)),
                               bounds_of(std::max(data.a, data.b)), question_.reach);
 }
 
 /// Whether a pair with this answer of the CPU has a row.
-bool DevicePairs::is_hit(const AnyResult& answer, const plan::PairRowData& data) const {
+bool DevicePairs::is_hit(const AnyResult& answer, const shaders::PairRowData& data) const {
     const bool has_answer = std::visit(
         [this](const auto& result) {
             return !result.status.ok() || nearfield::is_hit(result, question_.reach);
@@ -100,12 +100,12 @@ bool DevicePairs::is_hit(const AnyResult& answer, const plan::PairRowData& data)
 }
 
 /// Whether the instances of a pair share a point, for a table of intersection tests.
-bool DevicePairs::do_share_a_point(const plan::PairRowData& pair) {
+bool DevicePairs::do_share_a_point(const shaders::PairRowData& pair) {
     const Instance& a = instances_[pair.a].instance;
     const Instance& b = instances_[pair.b].instance;
     edges_.clear();
-    return plan::intersect({polygon_of(a.shape), polygon_of(b.shape), a.pose, b.pose}, edges_,
-                           overlap_test_);
+    return queries::intersect({polygon_of(a.shape), polygon_of(b.shape), a.pose, b.pose}, edges_,
+                              overlap_test_);
 }
 
 /// Answers the undecided rows.
@@ -138,8 +138,8 @@ void DevicePairs::decide() {
     const Stopwatch start;
     for (const std::uint32_t i : buffers_->undecided()) {
         // Where the row lies in memory of the device, each read of it takes long.
-        const plan::PairRowData& row = buffers_->row(i);
-        const plan::PairRowData pair{.a = row.a, .b = row.b};
+        const shaders::PairRowData& row = buffers_->row(i);
+        const shaders::PairRowData pair{.a = row.a, .b = row.b};
         take_poses(pair);
         decided_.push_back({i, false, pair});
     }
@@ -260,15 +260,15 @@ void DevicePairs::find_poses(const char* call) {
         return;
     }
     const VkPhysicalDeviceLimits& limits = context_->device()->limits();
-    const Status status =
-        plan::check_poses(*poses_, instances_.end_index(), limits.minStorageBufferOffsetAlignment,
-                          limits.maxStorageBufferRange);
+    const Status status = device_input::check_poses(*poses_, instances_.end_index(),
+                                                    limits.minStorageBufferOffsetAlignment,
+                                                    limits.maxStorageBufferRange);
     if (!status.ok()) {
         refuse(call, status.message());
     }
     if (instances_.size() > 1) {
         const double farthest = question_.resolved > 0.0
-                                    ? question_.resolved / plan::smallest_tolerance(1.0)
+                                    ? question_.resolved / queries::smallest_tolerance(1.0)
                                     : std::numeric_limits<float>::max();
         buffers_->poses().set(context_->renderer()->pair_poses(), *poses_, instances_.end_index(),
                               farthest);
@@ -309,18 +309,18 @@ double DevicePairs::rounding_of(const PairInstance& entry) const {
     const geometry::Polygon& polygon = *polygon_of(entry.instance.shape);
     const double magnitude = instances_.origin().lpNorm<1>() + entry.place.lpNorm<1>() +
                              polygon.radius() + polygon.centre().lpNorm<1>();
-    return plan::rounding_of_host_pose(polygon, magnitude);
+    return device_input::rounding_of_host_pose(polygon, magnitude);
 }
 
-void DevicePairs::take_poses(const plan::PairRowData& pair) {
+void DevicePairs::take_poses(const shaders::PairRowData& pair) {
     if (poses_) {
         take_pose(pair.a);
         take_pose(pair.b);
     }
 }
 
-plan::PairRowData DevicePairs::pair_of(std::uint32_t device_row) {
-    const plan::PairRowData data = buffers_->row(device_row);
+shaders::PairRowData DevicePairs::pair_of(std::uint32_t device_row) {
+    const shaders::PairRowData data = buffers_->row(device_row);
     take_poses(data);
     return data;
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <engine/plan/pair_question.hpp>
-#include <engine/plan/plan.hpp>
-#include <engine/readback/contacts.hpp>
-#include <engine/readback/point_resolver.hpp>
-#include <engine/records/found_contacts.hpp>
+#include <engine/batch/contacts.hpp>
+#include <engine/batch/point_resolver.hpp>
+#include <engine/device_input/pair_question.hpp>
+#include <engine/device_input/plan.hpp>
 #include <engine/render/pair_search_buffers.hpp>
+#include <engine/solvers/found_contacts.hpp>
 #include <engine/world/device_instances.hpp>
 #include <engine/world/pair_row.hpp>
 #include <engine/world/world_view.hpp>
@@ -25,8 +25,8 @@ namespace nearfield {
 /// throw; after start() or finish() has, start_anew() has to be called.
 class DevicePairs {
 public:
-    /// Precondition: plan::is_for_all_pairs(query), which has to stay. `reach`: of separations and
-    /// closest points.
+    /// Precondition: device_input::is_for_all_pairs(query), which has to stay. `reach`: of
+    /// separations and closest points.
     DevicePairs(const AnyQuery& query, double reach, Timings& timings);
     ~DevicePairs();
     DevicePairs(const DevicePairs&) = delete;
@@ -75,9 +75,9 @@ private:
     /// A row that the CPU decided. Its answer, unless it is that of an intersection test, is the
     /// result with the same index.
     struct Decided {
-        std::uint32_t row = 0;   // of the device
-        bool has_row = false;    // in the table
-        plan::PairRowData pair;  // its instances
+        std::uint32_t row = 0;      // of the device
+        bool has_row = false;       // in the table
+        shaders::PairRowData pair;  // its instances
     };
 
     void set_submitted(bool is_submitted);
@@ -86,52 +86,53 @@ private:
     /// Says where the device finds the host's poses. `call`: for messages.
     void find_poses(const char* call);
     /// What the device has found out about a pair; the poses of both instances are taken.
-    [[nodiscard]] plan::PairRowData pair_of(std::uint32_t device_row);
+    [[nodiscard]] shaders::PairRowData pair_of(std::uint32_t device_row);
     void take_pose(std::uint32_t number);
     /// Those of a pair, if they are the host's.
-    void take_poses(const plan::PairRowData& pair);
+    void take_poses(const shaders::PairRowData& pair);
     void require_usable_poses();
     /// What the device has lost where it took the pose of an instance.
     [[nodiscard]] double rounding_of(const PairInstance& entry) const;
     void check(const char* call) const;
     void order_instances(const world::Instances& instances);
-    [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
-    [[nodiscard]] bool is_hit(const AnyResult& answer, const plan::PairRowData& data) const;
-    [[nodiscard]] bool do_share_a_point(const plan::PairRowData& pair);
+    [[nodiscard]] bool boxes_meet(const shaders::PairRowData& data) const;
+    [[nodiscard]] bool is_hit(const AnyResult& answer, const shaders::PairRowData& data) const;
+    [[nodiscard]] bool do_share_a_point(const shaders::PairRowData& pair);
     void answer_undecided();
     void decide();
     /// The device's row of a row of the table.
     [[nodiscard]] std::uint32_t device_row(std::uint32_t index) const;
     /// What the CPU answered; null if the device decided.
     [[nodiscard]] const AnyResult* find_decided(std::uint32_t row) const;
-    [[nodiscard]] AnyQuery query_on_cpu(const plan::PairRowData& data, bool with_records) const;
+    [[nodiscard]] AnyQuery query_on_cpu(const shaders::PairRowData& data, bool with_records) const;
     [[nodiscard]] const geometry::Polygon* polygon_of(ShapeHandle shape) const {
         return instances_.polygon_of(shape);
     }
-    [[nodiscard]] const AnyResult& answer_on_cpu(const plan::PairRowData& data, bool with_records);
+    [[nodiscard]] const AnyResult& answer_on_cpu(const shaders::PairRowData& data,
+                                                 bool with_records);
     template <class Query>
     void row_of_cpu(std::uint32_t index, PairRow<Query>& row) {
         const std::uint32_t number = device_row(index);
-        const plan::PairRowData data = pair_of(number);
+        const shaders::PairRowData data = pair_of(number);
         const AnyResult* const decided = find_decided(number);
         const AnyResult& answer = decided != nullptr ? *decided : answer_on_cpu(data, false);
         fill(row, data, std::get<typename Query::Result>(answer));
     }
     /// The pair as a planned query, until the next one.
-    [[nodiscard]] const plan::PlannedQuery& plan_pair(const plan::PairRowData& data);
-    [[nodiscard]] readback::QueryPoints points_of(std::uint32_t row, std::uint32_t first,
-                                                  std::uint32_t count) const {
+    [[nodiscard]] const device_input::PlannedQuery& plan_pair(const shaders::PairRowData& data);
+    [[nodiscard]] batch::QueryPoints points_of(std::uint32_t row, std::uint32_t first,
+                                               std::uint32_t count) const {
         return {.found = buffers_->records(row, first, count)};
     }
     /// Those of a row of the device.
-    void find_contacts(const plan::PairRowData& data, std::uint32_t row);
+    void find_contacts(const shaders::PairRowData& data, std::uint32_t row);
     /// The manifold of a pair of contacts and, if the query asks for them, their records; until the
     /// next call of any kind.
-    [[nodiscard]] ContactResult& contacts_of(const plan::PairRowData& data, std::uint32_t row);
-    [[nodiscard]] bool do_intersect(const plan::PairRowData& data);
+    [[nodiscard]] ContactResult& contacts_of(const shaders::PairRowData& data, std::uint32_t row);
+    [[nodiscard]] bool do_intersect(const shaders::PairRowData& data);
     /// A row that says of its pair what a result does.
     template <class Query>
-    void fill(PairRow<Query>& row, const plan::PairRowData& data,
+    void fill(PairRow<Query>& row, const shaders::PairRowData& data,
               const typename Query::Result& result) const {
         row = row_of<Query>(instances_[data.a].handle, instances_[data.b].handle, result);
         if constexpr (requires { result.count; }) {
@@ -141,9 +142,9 @@ private:
 
     const AnyQuery& query_;
     Timings& timings_;
-    const plan::PairQuestion question_;  // that it asks of the device
-    std::optional<DevicePoses> poses_;   // of the host
-    readback::PointResolver resolver_;
+    const device_input::PairQuestion question_;  // that it asks of the device
+    std::optional<DevicePoses> poses_;           // of the host
+    batch::PointResolver resolver_;
     Context::Implementation* context_ = nullptr;
     std::weak_ptr<const void> world_;
     std::unique_ptr<render::PairSearchBuffers> buffers_;
@@ -153,12 +154,12 @@ private:
     Results decided_results_;
     std::vector<std::uint32_t> dropped_rows_;  // of the device, in ascending order
     // For reading rows, as are those that follow: a pair, and its other direction.
-    plan::PlannedQuery of_a_;
-    plan::PlannedQuery of_b_;
+    device_input::PlannedQuery of_a_;
+    device_input::PlannedQuery of_b_;
     std::vector<AnyQuery> cpu_queries_;
     Results cpu_results_;
-    readback::ContactDecoder contact_decoder_;
-    records::FoundContacts found_contacts_;
+    batch::ContactDecoder contact_decoder_;
+    solvers::FoundContacts found_contacts_;
     ContactResult contacts_;
     narrowphase::OverlapTest overlap_test_;
     simd::TransformedInstances edges_;

@@ -1,6 +1,6 @@
 #include <engine/base/status_exception.hpp>
+#include <engine/geometry/hierarchy.hpp>
 #include <engine/geometry/magnitude.hpp>
-#include <engine/localize/hierarchy.hpp>
 #include <engine/world/instances.hpp>
 
 #include <algorithm>
@@ -143,7 +143,7 @@ void Instances::place(std::uint32_t index) {
     const Pose& pose = entries_[index].instance.pose;
     const TransformedPolygon placed(*kept.polygon, pose);
     kept.revision = kept.polygon->revision();
-    static_cast<localize::Bounds&>(bounds) = localize::bounds_of(placed);
+    static_cast<geometry::Bounds&>(bounds) = geometry::bounds_of(placed);
     bounds.magnitude = geometry::largest_magnitude(placed, pose, bounds.box);
     max_rounding_ = std::max(max_rounding_, bounds.rounding);
     boxes_.set(index, bounds.box);

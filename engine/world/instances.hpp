@@ -2,8 +2,8 @@
 
 #include <engine/base/function_ref.hpp>
 #include <engine/base/unique_numbers.hpp>
+#include <engine/geometry/hierarchy.hpp>
 #include <engine/geometry/polygon.hpp>
-#include <engine/localize/hierarchy.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/simd/box_hierarchy.hpp>
 #include <engine/simd/transformed_edges.hpp>
@@ -101,11 +101,11 @@ public:
     /// goes: larger than at any earlier time.
     [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return changed_[index]; }
     [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
-    [[nodiscard]] const localize::Bounds& bounds(std::uint32_t index) const {
+    [[nodiscard]] const geometry::Bounds& bounds(std::uint32_t index) const {
         return bounds_[index];
     }
     [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return bounds_[index].box; }
-    /// Of its transformed vertices: localize::placement_rounding.
+    /// Of its transformed vertices: geometry::placement_rounding.
     [[nodiscard]] double rounding(std::uint32_t index) const { return bounds_[index].rounding; }
     /// geometry::largest_magnitude
     [[nodiscard]] double magnitude(std::uint32_t index) const { return bounds_[index].magnitude; }
@@ -130,7 +130,7 @@ public:
 
     /// Whether two instances can share a point, by their boxes.
     [[nodiscard]] bool boxes_meet(std::uint32_t a, std::uint32_t b) const {
-        return localize::may_meet(bounds_[a], bounds_[b]);
+        return geometry::may_meet(bounds_[a], bounds_[b]);
     }
     /// Whether they share a point.
     [[nodiscard]] bool intersect(std::uint32_t a, std::uint32_t b,
@@ -151,7 +151,7 @@ private:
         bool is_changed = false;  // listed in changes_
     };
     // Where an instance is. The box is empty, and so meets none, if its shape was removed.
-    struct Bounds : localize::Bounds {
+    struct Bounds : geometry::Bounds {
         double magnitude = 0.0;
     };
     // What is kept of it besides.

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] const Pose& end(std::uint32_t index) const { return entries_[index].end; }
     /// Contain the instance throughout its motion, with the rounding of its vertices: no more of it
     /// is left to whoever compares boxes.
-    [[nodiscard]] const localize::Bounds& bounds(std::uint32_t index) const {
+    [[nodiscard]] const geometry::Bounds& bounds(std::uint32_t index) const {
         return entries_[index].bounds;
     }
     [[nodiscard]] const BoxHierarchy& boxes() const { return boxes_; }
@@ -37,7 +37,7 @@ public:
 private:
     struct Entry {
         Pose end;
-        localize::Bounds bounds;
+        geometry::Bounds bounds;
         bool has_changed = false;
     };
 

@@ -2,7 +2,7 @@
 
 #include <engine/geometry/segment.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
-#include <engine/records/nearest_feature.hpp>
+#include <engine/solvers/nearest_feature.hpp>
 #include <nearfield/world.hpp>
 
 #include <cmath>
@@ -26,7 +26,7 @@ inline NearestHit hit_of(const NearestOnInstance& found, const geometry::Transfo
             rounding + placed.polygon().deviation() +
                 8.0 * std::numeric_limits<double>::epsilon() * std::abs(found.distance),
             geometry::to_public(found.on_edge.point),
-            records::feature_at(placed, found.edge, found.on_edge.parameter)};
+            solvers::feature_at(placed, found.edge, found.on_edge.parameter)};
 }
 
 }  // namespace nearfield::world

@@ -1,8 +1,8 @@
 // The instances that points, rectangles and shapes meet.
 
-#include <engine/context/call_within.hpp>
+#include <engine/batch/call_within.hpp>
+#include <engine/geometry/hierarchy.hpp>
 #include <engine/geometry/segment.hpp>
-#include <engine/localize/hierarchy.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/world_state.hpp>
 
@@ -129,7 +129,7 @@ Status World::find_overlaps(std::span<const Rectangle> rectangles, InstanceLists
                            geometry::to_vector(rectangles[i].max));
             },
             [&](std::uint32_t index, const Box& box) {
-                return localize::boxes_meet(all.box(index), box, all.rounding(index)) &&
+                return geometry::boxes_meet(all.box(index), box, all.rounding(index)) &&
                        meets(all, index, box);
             });
     });

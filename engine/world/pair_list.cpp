@@ -1,4 +1,4 @@
-#include <engine/localize/hierarchy.hpp>
+#include <engine/geometry/hierarchy.hpp>
 #include <engine/world/pair_list.hpp>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, co
         const bool is_first = instances.number(index) < instances.number(other);
         const std::uint32_t first = is_first ? index : other;
         const std::uint32_t second = is_first ? other : index;
-        if (!localize::may_meet(boxes.bounds(first), boxes.bounds(second), reach)) {
+        if (!geometry::may_meet(boxes.bounds(first), boxes.bounds(second), reach)) {
             return;
         }
         found_.push_back({first, second, none});

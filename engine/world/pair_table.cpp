@@ -3,9 +3,9 @@
 #include <engine/base/interruption.hpp>
 #include <engine/base/jobs.hpp>
 #include <engine/base/stopwatch.hpp>
-#include <engine/context/call_within.hpp>
+#include <engine/batch/call_within.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/plan/error_budget.hpp>
+#include <engine/queries/error_budget.hpp>
 #include <engine/solvers/penetration.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/motions.hpp>
@@ -155,11 +155,11 @@ static void answer(const PenetrationQuery& query, const world::Instances& instan
     result.intersects = false;
     result.count = 0;
     result.deepest = {};
-    const plan::Deviations deviations{instances.deviation(pair.a), instances.deviation(pair.b)};
-    result.error_bound = plan::penetration_budget(query, deviations).bound;
-    result.status = plan::check_deviations(query.tolerance, deviations, result.error_bound);
+    const queries::Deviations deviations{instances.deviation(pair.a), instances.deviation(pair.b)};
+    result.error_bound = queries::penetration_budget(query, deviations).bound;
+    result.status = queries::check_deviations(query.tolerance, deviations, result.error_bound);
     if (result.status.ok()) {
-        result.status = plan::check_resolution(
+        result.status = queries::check_resolution(
             query.tolerance, std::max(instances.magnitude(pair.a), instances.magnitude(pair.b)));
     }
     if (result.status.ok() && instances.boxes_meet(pair.a, pair.b)) {
@@ -220,7 +220,8 @@ static Technique automatic_technique(const Context::Implementation& context, con
                                      const PairTableOptions& options, bool needs_device) {
     const bool is_quick = context.device() != nullptr && !context.device()->is_software() &&
                           context.techniques().compute;
-    const bool is_answered = options.hits_only && !options.listed && plan::is_for_all_pairs(query);
+    const bool is_answered =
+        options.hits_only && !options.listed && device_input::is_for_all_pairs(query);
     return needs_device || (is_quick && is_answered) ? Technique::compute : Technique::cpu;
 }
 
@@ -232,7 +233,7 @@ static void require_for_device(const char* call, const AnyQuery& query,
                "Technique::compute finds the pairs that are hit; a table of all candidates "
                "(hits_only = false) is for Technique::cpu");
     }
-    if (!plan::is_for_all_pairs(query)) {
+    if (!device_input::is_for_all_pairs(query)) {
         refuse(call, std::holds_alternative<ContactQuery>(query)
                          ? "the contacts of these pairs have analytic normals"
                          : "Technique::compute does not answer this query of pairs of a world");
@@ -561,7 +562,7 @@ private:
             motions_.update(instances, input.moving, input.ends);
             list_.update(instances, motions_, reach());
         } else {
-            list_.update(instances, reach(), !plan::is_symmetric<Query>);
+            list_.update(instances, reach(), !device_input::is_symmetric<Query>);
         }
         candidate_count = static_cast<std::uint32_t>(list_.pairs().size());
         timings.plan = start.milliseconds();

@@ -1,4 +1,4 @@
-#include <engine/localize/hierarchy.hpp>
+#include <engine/geometry/hierarchy.hpp>
 #include <engine/world/placed_instances.hpp>
 
 namespace nearfield {
@@ -25,7 +25,7 @@ void PlacedInstances::place(std::uint32_t number, const DeviceInstances& instanc
     const DeviceInstances::Entry& instance = instances[number];
     const geometry::TransformedPolygon placed(*instances.polygon_of(instance.instance.shape),
                                               instance.instance.pose);
-    entry.placed.emplace(PlacedInstance{placed, localize::placement_rounding(placed, placed.box()),
+    entry.placed.emplace(PlacedInstance{placed, geometry::placement_rounding(placed, placed.box()),
                                         instance.handle});
     entry.moves.store(moves, std::memory_order_release);
 }

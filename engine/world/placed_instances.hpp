@@ -16,7 +16,7 @@ namespace nearfield {
 /// An instance at its pose, in double precision.
 struct PlacedInstance {
     geometry::TransformedPolygon polygon;
-    double rounding = 0.0;  ///< of its vertices: localize::placement_rounding
+    double rounding = 0.0;  ///< of its vertices: geometry::placement_rounding
     InstanceHandle handle;  ///< in the world
 };
 

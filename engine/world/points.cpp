@@ -1,7 +1,7 @@
 // The nearest instances, or edges, of points.
 
 #include <engine/base/prefetch.hpp>
-#include <engine/plan/pair_search.hpp>
+#include <engine/device_input/pair_search.hpp>
 #include <engine/world/nearest_hits.hpp>
 #include <engine/world/nearest_queries.hpp>
 #include <engine/world/requests.hpp>
@@ -23,7 +23,7 @@ namespace {
 bool is_same_feature(const PlacedInstance& instance, const world::NearestOnInstance& a,
                      const world::NearestOnInstance& b) {
     const auto feature_of = [&](const world::NearestOnInstance& found) {
-        return records::feature_at(instance.polygon, found.edge, found.on_edge.parameter);
+        return solvers::feature_at(instance.polygon, found.edge, found.on_edge.parameter);
     };
     const Feature one = feature_of(a);
     const Feature other = feature_of(b);
@@ -36,12 +36,12 @@ bool is_same_feature(const PlacedInstance& instance, const world::NearestOnInsta
 struct WorldRequest::Points {
     NearestQuery query;
 
-    static constexpr plan::WorldQuestion question = plan::WorldQuestion::nearest;
+    static constexpr device_input::WorldQuestion question = device_input::WorldQuestion::nearest;
     static constexpr const char* call = "find_nearest";
     using Input = Vector2;
     using Answer = NearestHit;
-    using Data = plan::NearestData;
-    using Found = plan::NearestAnswerData;
+    using Data = shaders::NearestData;
+    using Found = shaders::NearestAnswerData;
     using Solver = world::NearestQueries;
 
     void require_room(const char* from, std::size_t points, std::size_t hits) const {
@@ -69,33 +69,33 @@ struct WorldRequest::Points {
             });
     }
 
-    void take_down(const State& /*device*/, plan::WorldQueryPush& push) const {
-        push.largest = plan::rounded_up(query.max_distance);
+    void take_down(const State& /*device*/, shaders::WorldQueryPush& push) const {
+        push.largest = device_input::rounded_up(query.max_distance);
         push.is_signed = query.kind == NearestKind::instances ? 1 : 0;
     }
     static Data data_of(const State& device, const Vector2& point) {
         Data data;
-        plan::split(point, device.instances().origin(), data.at, data.low);
+        device_input::split(point, device.instances().origin(), data.at, data.low);
         return data;
     }
     /// Answers a point that can only be near the edges that the device names. Returns false if the
     /// device cannot tell, or if two of them are so near that rounding decides.
     bool decide(const State& device, const Vector2& at, const Found& named, NearestHit& hit) const {
         hit = {};
-        if (named.instance == plan::answered_by_cpu) {
+        if (named.instance == shaders::answered_by_cpu) {
             return false;
         }
-        if (named.instance == plan::no_instance) {
+        if (named.instance == shaders::no_instance) {
             return true;
         }
-        const std::uint32_t instance = named.instance & ~plan::point_in_instance;
-        const bool is_inside = (named.instance & plan::point_in_instance) != 0;
+        const std::uint32_t instance = named.instance & ~shaders::point_in_instance;
+        const bool is_inside = (named.instance & shaders::point_in_instance) != 0;
         const Vector point = geometry::to_vector(at);
-        std::array<world::NearestOnInstance, plan::nearest_candidates> all;
+        std::array<world::NearestOnInstance, shaders::nearest_candidates> all;
         std::size_t found = 0;
         const PlacedInstance* own = nullptr;
         for (const std::uint32_t edge : named.edges) {
-            if (edge == plan::no_edge) {
+            if (edge == shaders::no_edge) {
                 continue;
             }
             own = device.find_placed(instance, edge);
@@ -103,7 +103,7 @@ struct WorldRequest::Points {
                 return false;
             }
             const geometry::NearestOnSegment on_edge =
-                records::nearest_on_edge(own->polygon, edge, point);
+                solvers::nearest_on_edge(own->polygon, edge, point);
             all[found++] = {{}, std::sqrt(on_edge.squared_distance), edge, on_edge};
         }
         if (found == 0) {

@@ -1,5 +1,5 @@
+#include <engine/geometry/hierarchy.hpp>
 #include <engine/geometry/segment.hpp>
-#include <engine/localize/hierarchy.hpp>
 #include <engine/simd/ordered_search.hpp>
 #include <engine/world/pose_queries.hpp>
 
@@ -52,7 +52,7 @@ void PoseQueries::find_candidates(const TransformedPolygon& placed) {
     const Vector reach = Vector::Constant(shape_->radius());
     const geometry::Box around(placed.translation() - reach, placed.translation() + reach);
     const double rounding =
-        localize::placement_rounding(placed, around) + instances_->max_rounding();
+        geometry::placement_rounding(placed, around) + instances_->max_rounding();
     candidates_.clear();
     instances_->boxes().for_meeting(geometry::grown(around, rounding), [this](std::uint32_t index) {
         if (instances_->passes(index, filter_)) {
@@ -62,7 +62,7 @@ void PoseQueries::find_candidates(const TransformedPolygon& placed) {
 }
 
 bool PoseQueries::intersects(std::uint32_t index) {
-    if (!localize::may_meet(edges(), instances_->bounds(index))) {
+    if (!geometry::may_meet(edges(), instances_->bounds(index))) {
         return false;
     }
     const simd::TransformedEdges& other = instances_->edges(index);

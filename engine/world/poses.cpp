@@ -1,7 +1,7 @@
 // One shape at many poses: whether and how it meets a world, and what is nearest to it.
 
+#include <engine/device_input/pair_search.hpp>
 #include <engine/geometry/angle_kernels.hpp>
-#include <engine/plan/pair_search.hpp>
 #include <engine/world/pose_queries.hpp>
 #include <engine/world/requests.hpp>
 #include <nearfield/portable_math.hpp>
@@ -63,11 +63,11 @@ struct WorldRequest::Poses {
     const geometry::Polygon* polygon = nullptr;  // of the device's instances
     bool is_for_cpu = false;
 
-    static constexpr plan::WorldQuestion question = plan::WorldQuestion::poses;
+    static constexpr device_input::WorldQuestion question = device_input::WorldQuestion::poses;
     static constexpr const char* call = "test_poses";
     using Input = Pose;
     using Answer = std::uint8_t;
-    using Data = plan::PoseData;
+    using Data = shaders::PoseData;
     using Found = std::uint32_t;
     using Solver = world::PoseQueries;
 
@@ -89,7 +89,7 @@ struct WorldRequest::Poses {
             });
     }
 
-    void take_down(State& device, plan::WorldQueryPush& push) {
+    void take_down(State& device, shaders::WorldQueryPush& push) {
         const auto& shape_on_device = device.add_shape(shape);
         polygon = shape_on_device.polygon;
         is_for_cpu = shape_on_device.data.left_to_cpu != 0;
@@ -98,14 +98,14 @@ struct WorldRequest::Poses {
         push.radius = shape_on_device.data.radius;
     }
     [[nodiscard]] Data data_of(const State& device, const Pose& pose) const {
-        plan::SearchInstanceData placed;
-        const double magnitude = plan::set_place(*polygon, pose, sine_cosine(pose.angle),
-                                                 device.instances().origin(), placed)
+        shaders::SearchInstanceData placed;
+        const double magnitude = device_input::set_place(*polygon, pose, sine_cosine(pose.angle),
+                                                         device.instances().origin(), placed)
                                      .magnitude;
         Data data{placed.axis, placed.high, placed.low};
         // Single precision cannot tell anything if it does not hold the shape.
-        data.rounding =
-            is_for_cpu ? std::numeric_limits<float>::infinity() : plan::rounding_at(magnitude);
+        data.rounding = is_for_cpu ? std::numeric_limits<float>::infinity()
+                                   : device_input::rounding_at(magnitude);
         return data;
     }
     static bool decide(const State& /*device*/, const Pose& /*pose*/, Found found,

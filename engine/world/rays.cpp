@@ -1,7 +1,7 @@
 // What segments hit.
 
+#include <engine/device_input/pair_search.hpp>
 #include <engine/geometry/segment.hpp>
-#include <engine/plan/pair_search.hpp>
 #include <engine/world/ray_hits.hpp>
 #include <engine/world/ray_queries.hpp>
 #include <engine/world/requests.hpp>
@@ -16,12 +16,12 @@ using geometry::Vector;
 
 /// Segments, of which the first hits are wanted.
 struct WorldRequest::Rays {
-    static constexpr plan::WorldQuestion question = plan::WorldQuestion::rays;
+    static constexpr device_input::WorldQuestion question = device_input::WorldQuestion::rays;
     static constexpr const char* call = "cast_rays";
     using Input = Segment;
     using Answer = RayHit;
-    using Data = plan::RayData;
-    using Found = plan::RayAnswerData;
+    using Data = shaders::RayData;
+    using Found = shaders::RayAnswerData;
     using Solver = world::RayQueries;
 
     static void require_room(const char* from, std::size_t segments, std::size_t hits) {
@@ -46,29 +46,29 @@ struct WorldRequest::Rays {
             });
     }
 
-    static void take_down(const State& /*device*/, plan::WorldQueryPush& /*push*/) {}
+    static void take_down(const State& /*device*/, shaders::WorldQueryPush& /*push*/) {}
     static Data data_of(const State& device, const Segment& segment) {
         const Vector& origin = device.instances().origin();
         Data data;
-        plan::split(segment.from, origin, data.from, data.from_low);
-        plan::split(segment.to, origin, data.to, data.to_low);
+        device_input::split(segment.from, origin, data.from, data.from_low);
+        device_input::split(segment.to, origin, data.to, data.to_low);
         return data;
     }
     /// Answers a segment that can only hit the edges that the device names. Returns false if the
     /// device cannot tell.
     static bool decide(const State& device, const Segment& segment, const Found& found,
                        RayHit& hit) {
-        if (found.instances[0] == plan::answered_by_cpu) {
+        if (found.instances[0] == shaders::answered_by_cpu) {
             return false;
         }
         const Vector from = geometry::to_vector(segment.from);
         const Vector to = geometry::to_vector(segment.to);
         const double rounding = world::rounding_along(from, to);
         world::EdgeHit first;
-        std::uint32_t first_number = plan::no_instance;
-        for (std::uint32_t i = 0; i < plan::ray_candidates; ++i) {
+        std::uint32_t first_number = shaders::no_instance;
+        for (std::uint32_t i = 0; i < shaders::ray_candidates; ++i) {
             const std::uint32_t instance = found.instances[i];
-            if (instance == plan::no_instance) {
+            if (instance == shaders::no_instance) {
                 continue;
             }
             const std::uint32_t edge = found.edges[i];
@@ -85,7 +85,7 @@ struct WorldRequest::Rays {
                 continue;
             }
             const bool is_first =
-                first_number == plan::no_instance || parameter < first.parameter ||
+                first_number == shaders::no_instance || parameter < first.parameter ||
                 (parameter == first.parameter &&
                  (instance < first_number || (instance == first_number && edge < first.edge)));
             if (is_first) {
@@ -93,7 +93,7 @@ struct WorldRequest::Rays {
                 first_number = instance;
             }
         }
-        if (first_number == plan::no_instance) {
+        if (first_number == shaders::no_instance) {
             hit = {};
             return true;
         }

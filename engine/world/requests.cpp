@@ -1,7 +1,7 @@
 // What requests of all kinds have in common.
 
-#include <engine/plan/pair_question.hpp>
-#include <engine/plan/search_shapes.hpp>
+#include <engine/device_input/pair_question.hpp>
+#include <engine/device_input/search_shapes.hpp>
 #include <engine/world/requests.hpp>
 
 #include <string>
@@ -38,10 +38,10 @@ const Timings& WorldRequest::timings() const noexcept {
     return state_ == nullptr ? none : state_->timings;
 }
 
-WorldRequest::State::State(plan::WorldQuestion kind)
+WorldRequest::State::State(device_input::WorldQuestion kind)
     : question(kind),
       query_(IntersectionTestQuery{}),
-      pair_question_(plan::pair_question(query_, 0.0)) {}
+      pair_question_(device_input::pair_question(query_, 0.0)) {}
 
 WorldRequest::State::~State() {
     if (context_ != nullptr) {
@@ -129,7 +129,7 @@ void WorldRequest::State::start(const char* call, const WorldView& world, const 
     }
     count = static_cast<std::uint32_t>(questions);
     filter_ = filter;
-    ignored_ = plan::no_instance;
+    ignored_ = shaders::no_instance;
     for (std::uint32_t i = 0; filter.ignored != InstanceHandle{} && i < instances_.size(); ++i) {
         ignored_ = instances_[i].handle == filter.ignored ? i : ignored_;
     }
@@ -138,14 +138,14 @@ void WorldRequest::State::start(const char* call, const WorldView& world, const 
     }
 }
 
-void WorldRequest::State::begin(const Stopwatch& total, plan::WorldQueryPush& push) {
+void WorldRequest::State::begin(const Stopwatch& total, shaders::WorldQueryPush& push) {
     timings.plan = total.milliseconds() - making_pipelines_;
     render::Renderer& renderer = *context_->renderer();
     renderer.note_world_queries(question);
     push.category = filter_.category;
     push.mask = filter_.mask;
     push.ignored = ignored_;
-    push.magnitude = plan::rounded_up(2.0 * instances_.origin().lpNorm<1>());
+    push.magnitude = device_input::rounded_up(2.0 * instances_.origin().lpNorm<1>());
     buffers_->begin(instances_.shapes(), push, timings);
 }
 
@@ -191,7 +191,8 @@ const world::Instances& WorldRequest::State::instances_for_cpu() {
 
 WorldFilter WorldRequest::State::filter_for_cpu() const {
     WorldFilter filter = filter_;
-    filter.ignored = ignored_ == plan::no_instance ? InstanceHandle{} : for_cpu_->handle(ignored_);
+    filter.ignored =
+        ignored_ == shaders::no_instance ? InstanceHandle{} : for_cpu_->handle(ignored_);
     return filter;
 }
 

@@ -4,9 +4,9 @@
 #include <engine/base/jobs.hpp>
 #include <engine/base/status_exception.hpp>
 #include <engine/base/stopwatch.hpp>
-#include <engine/context/call_within.hpp>
-#include <engine/context/implementation.hpp>
-#include <engine/plan/world_question.hpp>
+#include <engine/batch/call_within.hpp>
+#include <engine/batch/context_implementation.hpp>
+#include <engine/device_input/world_question.hpp>
 #include <engine/render/world_query_buffers.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/device_instances.hpp>
@@ -30,7 +30,7 @@ namespace nearfield {
 /// What requests of all kinds keep from one submission to the next: the instances as the device was
 /// told of them, its memory, and what the CPU answers by itself. Its members throw.
 struct WorldRequest::State {
-    explicit State(plan::WorldQuestion kind);
+    explicit State(device_input::WorldQuestion kind);
     virtual ~State();
     State(const State&) = delete;
     State& operator=(const State&) = delete;
@@ -66,7 +66,7 @@ struct WorldRequest::State {
         return edge < placed.polygon.polygon().size() ? &placed : nullptr;
     }
 
-    const plan::WorldQuestion question;
+    const device_input::WorldQuestion question;
     std::uint32_t count = 0;
     std::uint32_t left_to_cpu = 0;
     Timings timings;
@@ -89,12 +89,12 @@ protected:
     /// Whether there is anything to ask the device.
     [[nodiscard]] bool is_asked() const { return instances_.size() > 0 && count > 0; }
     /// Lets the device begin. `push`: what depends on the kind of questions.
-    void begin(const Stopwatch& total, plan::WorldQueryPush& push);
+    void begin(const Stopwatch& total, shaders::WorldQueryPush& push);
     /// Prefetches the instance that an answer begins with, if it names one.
     void prefetch(const std::byte* answer) const {
         std::uint32_t number = 0;
         std::memcpy(&number, answer, sizeof(number));
-        number &= ~plan::point_in_instance;
+        number &= ~shaders::point_in_instance;
         if (number < instances_.size()) {
             placed_.prefetch(number);
         }
@@ -125,7 +125,7 @@ protected:
 private:
     // Boxes and places are those of an intersection test, which has no tolerance either.
     const AnyQuery query_;
-    const plan::PairQuestion pair_question_;
+    const device_input::PairQuestion pair_question_;
     std::weak_ptr<const void> world_;
     std::uint32_t renderer_ = 0;  // number of that of the last submission
     DeviceInstances instances_{query_, pair_question_};
@@ -133,12 +133,12 @@ private:
     std::optional<world::Instances> for_cpu_;  // brought up to date when they are needed
     std::vector<std::uint64_t> moves_for_cpu_;
     WorldFilter filter_;
-    std::uint32_t ignored_ = plan::no_instance;
+    std::uint32_t ignored_ = shaders::no_instance;
 };
 
 /// A request about questions of one kind. What a `Kind` is, by the example of segments:
 ///
-///     static constexpr plan::WorldQuestion question;  // on the device
+///     static constexpr device_input::WorldQuestion question;  // on the device
 ///     static constexpr const char* call;              // for messages
 ///     using Input, Answer;                            // of the public call
 ///     using Data, Found;                              // of one question and answer, on the device
@@ -272,7 +272,7 @@ private:
             if (is_asked()) {
                 std::byte* const memory = buffers_->reserve(count, context_->memory_limit());
                 inputs_.assign(inputs.begin(), inputs.end());
-                plan::WorldQueryPush push{};
+                shaders::WorldQueryPush push{};
                 kind_.take_down(*this, push);
                 jobs_->divide(count, questions_of_part,
                               [&](std::uint32_t /*job*/, std::size_t first, std::size_t end) {

@@ -1,6 +1,6 @@
 // A world itself: its instances, and what its other members share.
 
-#include <engine/context/call_within.hpp>
+#include <engine/batch/call_within.hpp>
 #include <engine/world/checks.hpp>
 #include <engine/world/world_state.hpp>
 
@@ -44,7 +44,7 @@ Expected<World> World::create(Context& context) {
 Expected<InstanceHandle> World::add(const WorldInstance& instance) {
     return catch_to_expected([&] {
         static_cast<void>(state_->shape(instance.shape, "add"));
-        if (Status bad_pose = plan::check_pose(instance.pose, "the instance"); !bad_pose.ok()) {
+        if (Status bad_pose = queries::check_pose(instance.pose, "the instance"); !bad_pose.ok()) {
             refuse("add", bad_pose.message());
         }
         return state_->instances.add(instance);

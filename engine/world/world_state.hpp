@@ -2,7 +2,7 @@
 
 #include <engine/base/interruption.hpp>
 #include <engine/base/jobs.hpp>
-#include <engine/context/implementation.hpp>
+#include <engine/batch/context_implementation.hpp>
 #include <engine/geometry/hilbert_curve.hpp>
 #include <engine/solvers/time_of_impact.hpp>
 #include <engine/world/instances.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/context/implementation.hpp>
+#include <engine/batch/context_implementation.hpp>
 #include <engine/world/instances.hpp>
 
 #include <memory>

@@ -1,13 +1,13 @@
 // The CPU time for planning a batch and building its tile batches, without a device: many pairs, a
 // tolerance that gives thousands of tiles, a large field, a large shape in many queries.
 
-#include <engine/plan/planner.hpp>
+#include <engine/device_input/planner.hpp>
 #include <engine/raster/drawn_batch_builder.hpp>
 #include <engine/raster/point_planner.hpp>
 
 #include <tests/bench/bench.hpp>
-#include <tests/support/checked_queries.hpp>
 #include <tests/support/outlines.hpp>
+#include <tests/support/planned_queries.hpp>
 
 #include <deque>
 #include <filesystem>
@@ -101,21 +101,21 @@ Scene instances() {
 
 /// Time: of both.
 void measure(State& state, const Scene& scene) {
-    plan::PlanLimits limits;
+    queries::QueryLimits limits;
     limits.memory = std::uint64_t{8} << 30U;
-    plan::Planner planner(limits);
+    device_input::Planner planner(limits);
     raster::PointPlanner points;
-    const auto plan_drawn = [&](plan::CurrentQuery& current, AnyResult& result) {
+    const auto plan_drawn = [&](device_input::CurrentQuery& current, AnyResult& result) {
         points.plan(current, result);
     };
     raster::DrawnBatchBuilder builder(limits.subpixel);
-    plan::Plan plan;
+    device_input::Plan plan;
     std::vector<raster::DrawnBatch> batches;
-    std::vector<plan::QueryShapes> shapes;
+    std::vector<queries::QueryShapes> shapes;
     std::vector<AnyResult> results;
     run(state, [&]() -> Numbers {
         const double start = processor_milliseconds();
-        plan::find_shapes(
+        queries::find_shapes(
             scene.queries,
             [&](ShapeHandle shape) {
                 return shape.index < scene.shapes.size() ? &scene.shapes[shape.index] : nullptr;

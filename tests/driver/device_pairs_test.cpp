@@ -18,7 +18,7 @@ using Step = DeviceWorld::Step;
 
 /// More than there is room for at first.
 constexpr std::uint32_t pairs_found = 20'000;
-constexpr std::uint32_t word_of_pairs = plan::pair_total;
+constexpr std::uint32_t word_of_pairs = shaders::pair_total;
 
 /// How a table is brought up to date.
 /// Where shaders find what they count.

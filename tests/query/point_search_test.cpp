@@ -348,7 +348,7 @@ TEST_F(PointSearch, HoldsForTensOfThousandsOfEdges) {
 // Three times as many blocks of edges as one workgroup scans.
 TEST_F(PointSearch, HoldsForManyBlocks) {
     Random random(point_search_seed + 7000);
-    const Rings large = coast(random, 3 * plan::scan_block * plan::search_block, 0.1);
+    const Rings large = coast(random, 3 * shaders::scan_block * shaders::search_block, 0.1);
     const Pair pair{{"coast", large}, {"square", rectangle({-0.8, -2}, {2, 2})}, {}, {}, 0.01};
     const PlacedPair placed(context(), pair, Technique::compute);
     PenetrationQuery query = placed.penetration(PenetrationPoints::vertices);

@@ -1,12 +1,12 @@
 #include "scanline_reference.hpp"
 
+#include <engine/device_input/planner.hpp>
 #include <engine/geometry/polygon.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/plan/planner.hpp>
 #include <engine/raster/drawn_batch_builder.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/support/checked_queries.hpp>
+#include <tests/support/planned_queries.hpp>
 #include <tests/support/scanline.hpp>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Placed {
 };
 
 /// The triangles of a tile, in its cells: those that reach it or the gap around it.
-geometry::Mesh in_tile(const plan::TileData& tile, const geometry::Mesh& all) {
+geometry::Mesh in_tile(const shaders::TileData& tile, const geometry::Mesh& all) {
     constexpr auto gap = static_cast<float>(raster::atlas_gap);
     geometry::Mesh mesh;
     for (std::size_t i = 0; i + 2 < all.size(); i += 3) {
@@ -46,14 +46,14 @@ geometry::Mesh in_tile(const plan::TileData& tile, const geometry::Mesh& all) {
 }
 
 /// The triangles that decide where a shape is in a tile.
-geometry::Mesh mesh_of(const raster::DrawnBatch& batch, const plan::OverlapTile& overlap,
+geometry::Mesh mesh_of(const raster::DrawnBatch& batch, const device_input::OverlapTile& overlap,
                        IntersectionStrategy strategy, bool is_a) {
     using raster::OverlapStep;
-    const plan::TileData& tile = batch.tiles[overlap.tile];
+    const shaders::TileData& tile = batch.tiles[overlap.tile];
     const auto mesh = [&](OverlapStep step) -> const geometry::Mesh& {
         return batch.meshes[raster::overlaps_of(strategy, step)];
     };
-    if ((is_a ? overlap.part_a : overlap.part_b) == plan::Part::volume) {
+    if ((is_a ? overlap.part_a : overlap.part_b) == device_input::Part::volume) {
         return in_tile(tile, mesh(is_a ? OverlapStep::parity_a : OverlapStep::parity_b));
     }
     geometry::Mesh found =
@@ -67,9 +67,9 @@ geometry::Mesh mesh_of(const raster::DrawnBatch& batch, const plan::OverlapTile&
 
 /// For each sample the id of the first triangle that covers it, or none; for volumes, 0 or none.
 std::vector<std::uint32_t> scan(const support::Tile& tile, const geometry::Mesh& mesh,
-                                plan::Part part) {
+                                device_input::Part part) {
     std::vector<std::uint32_t> image(std::size_t{tile.width} * tile.height, nothing);
-    if (part == plan::Part::volume) {
+    if (part == device_input::Part::volume) {
         const std::vector<std::uint8_t> parity = support::draw_parity(tile, mesh);
         std::transform(parity.begin(), parity.end(), image.begin(),
                        [](std::uint8_t odd) { return odd != 0 ? 0 : nothing; });
@@ -84,10 +84,10 @@ std::vector<std::uint32_t> scan(const support::Tile& tile, const geometry::Mesh&
     return image;
 }
 
-void scan_tile(const plan::Plan& plan, const raster::DrawnBatch& batch,
-               const plan::OverlapTile& overlap, IntersectionStrategy strategy,
+void scan_tile(const device_input::Plan& plan, const raster::DrawnBatch& batch,
+               const device_input::OverlapTile& overlap, IntersectionStrategy strategy,
                geometry::SubpixelGrid grid, std::vector<Placed>& found) {
-    const plan::Tile& planned = plan.tiles[batch.tile_index[overlap.tile]];
+    const device_input::PlannedTile& planned = plan.tiles[batch.tile_index[overlap.tile]];
     const support::Tile tile{planned.width, planned.height, grid};
     const auto a = scan(tile, mesh_of(batch, overlap, strategy, true), overlap.part_a);
     const auto b = scan(tile, mesh_of(batch, overlap, strategy, false), overlap.part_b);
@@ -100,9 +100,9 @@ void scan_tile(const plan::Plan& plan, const raster::DrawnBatch& batch,
             const geometry::Vector centre(static_cast<double>(planned.column + column) + 0.5,
                                           static_cast<double>(planned.row + row) + 0.5);
             const geometry::Vector point = planned.grid.origin + planned.grid.cell * centre;
-            plan::EdgeRun run{0, 0};
-            if (overlap.part_a == plan::Part::boundary) {
-                run = batch.runs[a[index] >> plan::run_shift];
+            queries::EdgeRun run{0, 0};
+            if (overlap.part_a == device_input::Part::boundary) {
+                run = batch.runs[a[index] >> shaders::run_shift];
             }
             found.push_back({{planned.region, planned.row + row, planned.column + column},
                              {geometry::to_public(point), run.first, run.count}});
@@ -122,16 +122,16 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     geometry::Polygon a;
     geometry::Polygon b;
     EXPECT_TRUE(a.assign(pair.pair().a.rings).ok() && b.assign(pair.pair().b.rings).ok());
-    plan::PlanLimits limits;
+    queries::QueryLimits limits;
     limits.subpixel = grid;
     limits.memory = settings.memory_limit;
     query.a.shape = {0, 0};
     query.b.shape = {1, 0};
     const std::vector<AnyQuery> queries{query};
-    plan::Planner planner(limits);
-    plan::Plan plan;
+    device_input::Planner planner(limits);
+    device_input::Plan plan;
     std::vector<AnyResult> results;
-    const std::vector<plan::QueryShapes> shapes{{&a, &b}};
+    const std::vector<queries::QueryShapes> shapes{{&a, &b}};
     plan_all(checked_queries(queries, shapes, limits, results), {}, planner, plan, results);
     raster::DrawnBatchBuilder builder(limits.subpixel);
     std::vector<raster::DrawnBatch> batches;
@@ -139,7 +139,7 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     EXPECT_EQ(count, batches.size());
     std::vector<Placed> found;
     for (const raster::DrawnBatch& batch : batches) {
-        for (const plan::OverlapTile& drawn :
+        for (const device_input::OverlapTile& drawn :
              batch.overlaps[static_cast<std::size_t>(query.strategy)]) {
             scan_tile(plan, batch, drawn, query.strategy, limits.subpixel, found);
         }

@@ -43,12 +43,13 @@ check_sanitized() {
         'driver/test_driver DeviceQueriesOfDriver.*' 'driver/test_driver FailingCalls.*'
         'driver/test_driver -HostDeviceMemory.*:HostMemory.*:DeviceQueriesOfDriver.*:FailingCalls.*'
         'worlds/test_worlds WorldHistory.* 16' 'worlds/test_worlds -WorldHistory.*'
-        'test_geometry *' 'test_outline *' 'test_localize *' 'test_simd *' 'test_narrowphase *'
-        'test_grid *' 'test_solvers *' 'test_plan *' 'test_graph -GraphExecute.*' 'test_mtv *'
+        'test_geometry *' 'test_outline *' 'test_simd *' 'test_narrowphase *' 'test_mtv *'
+        'test_queries *' 'test_solvers *' 'test_device_input *' 'test_graph -GraphExecute.*'
     )
     configure sanitize >/dev/null
-    build sanitize --target test_driver test_geometry test_outline test_localize test_simd \
-        test_narrowphase test_grid test_solvers test_plan test_graph test_mtv test_worlds test_limits test_reload
+    build sanitize --target test_driver test_geometry test_outline test_simd \
+        test_narrowphase test_queries test_solvers test_device_input test_graph test_mtv test_worlds \
+        test_limits test_reload
     printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
         bash -c '${3:+env NEARFIELD_TEST_CASES=$3} "$0/$1" --gtest_brief=1 --gtest_filter="$2"' \
         "$root/build/sanitize/tests"

@@ -1,5 +1,5 @@
 #include <engine/batch/technique_choice.hpp>
-#include <engine/plan/search_shapes.hpp>
+#include <engine/queries/checked_query.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
@@ -61,9 +61,9 @@ protected:
 
     [[nodiscard]] std::vector<Technique> choose(std::vector<AnyQuery> queries,
                                                 const TechniqueRule& rule = hardware()) const {
-        std::vector<plan::QueryShapes> shapes;
+        std::vector<queries::QueryShapes> shapes;
         const geometry::Polygon* const all[] = {&a_, &b_, &fine_, &finer_};
-        plan::find_shapes(
+        queries::find_shapes(
             queries,
             [&](ShapeHandle handle) { return handle.index < 4 ? all[handle.index] : nullptr; },
             shapes);
@@ -174,7 +174,7 @@ TEST_F(TechniqueChoice, LeavesToTheCpuWhatComputeMightRefuse) {
     EXPECT_EQ(choose({of_many, field(0.5 * cells)}),
               (std::vector<Technique>{Technique::cpu, Technique::cpu}));
     TechniqueRule rule = hardware();
-    rule.largest_range = plan::max_shape_bytes(a_, b_);
+    rule.largest_range = queries::max_shape_bytes(a_, b_);
     const std::vector<AnyQuery> overlaps(pairs, between<IntersectionQuery>());
     expect_all(overlaps, Technique::compute, rule);
     --rule.largest_range;
@@ -190,7 +190,7 @@ TEST_F(TechniqueChoice, OfWhatStaysOnTheDeviceIsComputeAlone) {
     distances.on_device = true;
     for (TechniqueRule rule : {hardware(), software()}) {
         expect_all({points, overlap, distances}, Technique::compute, rule);
-        rule.largest_range = plan::max_shape_bytes(a_, b_) - 1;
+        rule.largest_range = queries::max_shape_bytes(a_, b_) - 1;
         EXPECT_EQ(choose_one(overlap, rule), Technique::compute) << "to be refused by name";
         rule.available = {.compute = false};
         expect_all({points, overlap, distances}, Technique::automatic, rule);

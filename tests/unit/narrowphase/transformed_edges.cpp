@@ -1,5 +1,5 @@
+#include <engine/geometry/overlap.hpp>
 #include <engine/geometry/segment.hpp>
-#include <engine/localize/overlap.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/simd/transformed_edges.hpp>
 

@@ -10,10 +10,10 @@ namespace {
 
 std::vector<AtlasPlace> pack(AtlasPacker& packer, const std::vector<TileSize>& sizes) {
     std::vector<std::uint32_t> order;
-    std::vector<plan::Tile> tiles;
+    std::vector<device_input::PlannedTile> tiles;
     for (const TileSize& size : sizes) {
         order.push_back(static_cast<std::uint32_t>(tiles.size()));
-        plan::Tile& tile = tiles.emplace_back();
+        device_input::PlannedTile& tile = tiles.emplace_back();
         tile.width = size.width;
         tile.height = size.height;
     }

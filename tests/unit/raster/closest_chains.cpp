@@ -50,12 +50,12 @@ TEST(ClosestChains, HoldTheClosestEdgesAtEveryHeight) {
                 const TransformedPolygon b(polygon_b, {{2.5, random.between(-1.0, 1.0)}, 0.4});
                 const std::vector<double> distances = edge_distances(a, b);
                 const double least = *std::min_element(distances.begin(), distances.end());
-                std::vector<localize::Chain> chains;
+                std::vector<geometry::Chain> chains;
                 closest.find(a, b, {height, 0.0, volume}, chains);
                 EXPECT_GE(closest.upper_bound(), least);
                 std::vector<bool> kept(a.polygon().size(), false);
                 std::uint32_t last = 0;
-                for (const localize::Chain& chain : chains) {
+                for (const geometry::Chain& chain : chains) {
                     EXPECT_GE(chain.first, last) << "out of order";
                     last = chain.first;
                     for (std::uint32_t i = chain.first; i < chain.first + chain.count; ++i) {
@@ -82,8 +82,8 @@ TEST(ClosestChains, LookOnlyWhereTheClosestCanBe) {
     const TransformedPolygon a(polygon_a, {});
     const TransformedPolygon b(polygon_b, {{5.0, 0.0}, 1.0});
     ClosestChains closest;
-    std::vector<localize::Chain> chains;
-    const localize::Effort effort =
+    std::vector<geometry::Chain> chains;
+    const geometry::Effort effort =
         closest.find(a, b, {12, 0.0, BoundingVolume::axis_aligned}, chains);
     EXPECT_LT(effort.nodes_evaluated, 1500U) << "of 16382 that there are";
     EXPECT_GT(effort.pairs_rejected, 0U);

@@ -1,6 +1,6 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
-#include <engine/plan/simplified_shapes.hpp>
+#include <engine/queries/simplified_shapes.hpp>
 #include <engine/raster/edge_lists.hpp>
 
 #include <gtest/gtest.h>
@@ -23,10 +23,10 @@ constexpr double extent = 1e6;  // in cells; nothing is cut
 /// A list of edges as the compute shaders read it.
 class List {
 public:
-    List(const std::vector<EdgeListWriter::Entry>& geometry, const plan::EdgeListData& data)
+    List(const std::vector<EdgeListWriter::Entry>& geometry, const shaders::EdgeListData& data)
         : geometry_(&geometry), data_(data) {}
 
-    [[nodiscard]] plan::EdgeData edge(std::uint32_t i) const {
+    [[nodiscard]] shaders::EdgeData edge(std::uint32_t i) const {
         const EdgeListWriter::Entry* const at = geometry_->data() + data_.edges + 4U * i;
         return {at[0].x,
                 at[0].y,
@@ -41,7 +41,7 @@ public:
         return {(*geometry_)[place].x, (*geometry_)[place].y};
     }
     [[nodiscard]] bool is_in_cluster_of(std::uint32_t i, const Vector& point) const {
-        const std::uint32_t box = data_.clusters + 2U * (i / plan::cluster_size);
+        const std::uint32_t box = data_.clusters + 2U * (i / shaders::cluster_size);
         constexpr double rounding = 1e-4;  // of single precision, in cells
         return (point.array() >= at(box).array() - rounding).all() &&
                (point.array() <= at(box + 1).array() + rounding).all();
@@ -49,11 +49,11 @@ public:
 
 private:
     const std::vector<EdgeListWriter::Entry>* geometry_;
-    plan::EdgeListData data_;
+    shaders::EdgeListData data_;
 };
 
-std::vector<plan::TileEdge> all_edges(const plan::TileBoundary& boundary) {
-    std::vector<plan::TileEdge> edges;
+std::vector<queries::TileEdge> all_edges(const queries::TileBoundary& boundary) {
+    std::vector<queries::TileEdge> edges;
     for (std::uint32_t i = 0; i < boundary.size(); ++i) {
         edges.push_back({boundary.start(i), boundary.end(i), i});
     }
@@ -62,8 +62,8 @@ std::vector<plan::TileEdge> all_edges(const plan::TileBoundary& boundary) {
 
 /// Checks the vertices of the exact edges for which one edge of a list stands: they are where the
 /// tile has them, no farther from it than stated, and in the box of its cluster.
-void expect_run(const List& list, std::uint32_t i, const plan::TileBoundary& boundary) {
-    const plan::EdgeData edge = list.edge(i);
+void expect_run(const List& list, std::uint32_t i, const queries::TileBoundary& boundary) {
+    const shaders::EdgeData edge = list.edge(i);
     const geometry::SimplifiedEdge& simplified = boundary.edge(i);
     ASSERT_EQ(edge.first_edge, simplified.first);
     ASSERT_EQ(edge.run_count, simplified.count);
@@ -91,18 +91,18 @@ TEST(EdgeListWriter, WritesEachRunWhereItsTileHasIt) {
             SCOPED_TRACE(shape.name + ", seed " + std::to_string(seed));
             Polygon polygon;
             ASSERT_TRUE(polygon.assign(test::scaled_and_moved(shape.rings, 100.0, {})).ok());
-            plan::SimplifiedShapes shapes;
-            const plan::SimplifiedBoundary simplified =
-                shapes.get(polygon, 0.7, plan::longest_tile_run);
+            queries::SimplifiedShapes shapes;
+            const queries::SimplifiedBoundary simplified =
+                shapes.get(polygon, 0.7, queries::longest_tile_run);
             // Two tiles of one shape, and lists of both that refer to the same runs.
             EdgeListWriter writer;
             for (const Vector& origin : {Vector(0.0, 0.0), Vector(31.0, -17.0)}) {
-                const plan::TileBoundary boundary(
+                const queries::TileBoundary boundary(
                     simplified,
-                    plan::ToCells(TransformedPolygon(polygon, {{3.0, 4.0}, 0.5}), origin, 1.0));
+                    queries::ToCells(TransformedPolygon(polygon, {{3.0, 4.0}, 0.5}), origin, 1.0));
                 writer.begin_tile(boundary);
                 for (int repeated = 0; repeated < 2; ++repeated) {
-                    const plan::EdgeListData data = writer.write(all_edges(boundary), extent);
+                    const shaders::EdgeListData data = writer.write(all_edges(boundary), extent);
                     ASSERT_EQ(data.count, boundary.size());
                     const List list(writer.geometry(), data);
                     for (std::uint32_t i = 0; i < data.count; ++i) {
@@ -122,15 +122,15 @@ TEST(EdgeListWriter, WritesEachRunWhereItsTileHasIt) {
 TEST(EdgeListWriter, WritesARunOnceForEachTile) {
     Polygon polygon;
     ASSERT_TRUE(polygon.assign(test::scaled_and_moved(test::regular(200), 100.0, {})).ok());
-    plan::SimplifiedShapes shapes;
-    const plan::TileBoundary boundary(
-        shapes.get(polygon, 0.7, plan::longest_tile_run),
-        plan::ToCells(TransformedPolygon(polygon, {}), Vector::Zero(), 1.0));
+    queries::SimplifiedShapes shapes;
+    const queries::TileBoundary boundary(
+        shapes.get(polygon, 0.7, queries::longest_tile_run),
+        queries::ToCells(TransformedPolygon(polygon, {}), Vector::Zero(), 1.0));
     ASSERT_LT(boundary.size(), 100U);
     EdgeListWriter writer;
     writer.begin_tile(boundary);
-    const plan::EdgeListData first = writer.write(all_edges(boundary), extent);
-    const plan::EdgeListData second = writer.write(all_edges(boundary), extent);
+    const shaders::EdgeListData first = writer.write(all_edges(boundary), extent);
+    const shaders::EdgeListData second = writer.write(all_edges(boundary), extent);
     EXPECT_LE(second.edges - first.edges, 5U * boundary.size() + 8U) << "without vertices of runs";
 }
 

@@ -23,14 +23,14 @@ TEST(NearestEdges, ComeInOrderFromEveryPartOfTheTile) {
     std::vector<NearestEdge> part;
     NearestEdgeFinder finder;
     for (const auto& c : cases(0.3)) {
-        plan::NeededBlocks everything(width, height);
+        device_input::NeededBlocks everything(width, height);
         everything.add_all();
         finder.find(c->boundary(), everything, 0.5, all);
         ASSERT_FALSE(all.empty()) << c->name;
         for (std::size_t i = 1; i < all.size(); ++i) {
             ASSERT_LT(all[i - 1].edge.simplified, all[i].edge.simplified) << c->name;
         }
-        plan::NeededBlocks corner(width, height);
+        device_input::NeededBlocks corner(width, height);
         corner.add(width - 1, height - 1);
         finder.find(c->boundary(), corner, 0.5, part);
         ASSERT_TRUE(std::includes(all.begin(), all.end(), part.begin(), part.end(),
@@ -48,7 +48,7 @@ TEST(NearestEdges, HoldTheNearestEdgeOfEveryNeededSampleOnItsSide) {
     NearestEdgeFinder finder;
     test::Random random(9);
     for (const auto& c : cases(deviation)) {
-        plan::NeededBlocks needed(width, height);
+        device_input::NeededBlocks needed(width, height);
         std::vector<Vector> samples;
         for (int i = 0; i < 30; ++i) {
             const Vector p(random.between(0.0, width), random.between(0.0, height));

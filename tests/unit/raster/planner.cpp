@@ -1,16 +1,16 @@
 #include <engine/base/status_exception.hpp>
-#include <engine/plan/planner.hpp>
+#include <engine/device_input/planner.hpp>
 #include <engine/raster/point_planner.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/support/checked_queries.hpp>
+#include <tests/support/planned_queries.hpp>
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace nearfield::plan {
+namespace nearfield::device_input {
 namespace {
 
 using geometry::Polygon;
@@ -32,8 +32,8 @@ protected:
 
     void run(std::vector<AnyQuery> queries) {
         queries_ = std::move(queries);
-        std::vector<QueryShapes> shapes;
-        find_shapes(
+        std::vector<queries::QueryShapes> shapes;
+        queries::find_shapes(
             queries_,
             [this](ShapeHandle handle) -> const Polygon* {
                 return handle.index == 0 ? &a_ : handle.index == 1 ? &b_ : nullptr;
@@ -50,10 +50,10 @@ protected:
 
     Polygon a_;
     Polygon b_;
-    PlanLimits limits_;
+    queries::QueryLimits limits_;
     PenetrationQuery penetration_;
     std::vector<AnyQuery> queries_;
-    std::vector<CheckedQuery> checked_;
+    std::vector<queries::CheckedQuery> checked_;
     Plan plan_;
     std::vector<AnyResult> results_;
 };
@@ -65,7 +65,7 @@ TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
     ASSERT_GT(plan_.points.size(), 500U);
     const geometry::TransformedPolygon a(a_, penetration_.a.pose);
     for (const PlannedPoint& point : plan_.points) {
-        const Tile& tile = plan_.tiles[point.tile];
+        const PlannedTile& tile = plan_.tiles[point.tile];
         const Vector local = (position(a, point.point) - tile.origin()) / tile.grid.cell;
         ASSERT_GE(local.minCoeff(), -1e-9);
         ASSERT_LE(local.x(), tile.width + 1e-9);
@@ -92,7 +92,7 @@ TEST_F(PlannerTest, AFieldsTilesCoverItsGridOnce) {
     EXPECT_EQ(result.width, static_cast<std::uint32_t>(std::ceil(15.5 / (0.05 * std::sqrt(2.0)))));
     EXPECT_EQ(result.height, static_cast<std::uint32_t>(std::ceil(8.0 / (0.05 * std::sqrt(2.0)))));
     std::vector<int> covered(std::size_t{result.width} * result.height, 0);
-    for (const Tile& tile : plan_.tiles) {
+    for (const PlannedTile& tile : plan_.tiles) {
         for (std::uint64_t row = tile.row; row < tile.row + tile.height; ++row) {
             for (std::uint64_t column = tile.column; column < tile.column + tile.width; ++column) {
                 ++covered[row * result.width + column];
@@ -238,4 +238,4 @@ TEST_F(PlannerTest, ShapesFarApartPlanNothing) {
 }
 
 }  // namespace
-}  // namespace nearfield::plan
+}  // namespace nearfield::device_input

@@ -1,9 +1,9 @@
-#include <engine/plan/planner.hpp>
+#include <engine/device_input/planner.hpp>
 #include <engine/raster/drawn_batch_builder.hpp>
 #include <engine/raster/point_planner.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/support/checked_queries.hpp>
+#include <tests/support/planned_queries.hpp>
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 using geometry::MeshVertex;
 
 /// How far a triangle reaches beyond a tile, in cells.
-float overreach(std::span<const MeshVertex> triangle, const plan::TileData& tile) {
+float overreach(std::span<const MeshVertex> triangle, const shaders::TileData& tile) {
     float most = 0.0F;
     for (const MeshVertex& vertex : triangle) {
         const float x = vertex.x - static_cast<float>(tile.atlas_x);
@@ -37,7 +37,7 @@ protected:
     std::vector<DrawnBatch> tile_batches(std::uint64_t seed, double steps) {
         test::Random random(seed);
         std::vector<AnyQuery> queries;
-        std::vector<plan::QueryShapes> shapes;
+        std::vector<queries::QueryShapes> shapes;
         for (int i = 0; i < 40; ++i) {
             const double d = random.scale(0.01, 0.2);
             // The largest deviation allowed makes the widest offset polygons.
@@ -45,15 +45,15 @@ protected:
             shapes.push_back({shape(random, deviation), shape(random, deviation)});
             queries.push_back(query(random, d, i));
         }
-        plan::PlanLimits limits;
+        queries::QueryLimits limits;
         limits.memory = std::uint64_t{1} << 34U;
         limits.subpixel = {steps};
-        plan::Planner planner(limits);
+        device_input::Planner planner(limits);
         raster::PointPlanner points;
-        const auto plan_drawn = [&](plan::CurrentQuery& current, AnyResult& result) {
+        const auto plan_drawn = [&](device_input::CurrentQuery& current, AnyResult& result) {
             points.plan(current, result);
         };
-        plan::Plan plan;
+        device_input::Plan plan;
         std::vector<AnyResult> results;
         test::plan_all(test::checked_queries(queries, shapes, limits, results), plan_drawn, planner,
                        plan, results);
@@ -112,7 +112,7 @@ TEST_F(RasterTileMeshes, ReachNoOtherTile) {
                 for (const geometry::Mesh& mesh : batch.meshes.meshes()) {
                     for (std::size_t i = 0; i < mesh.size(); i += 3) {
                         float least = 1e9F;
-                        for (const plan::TileData& tile : batch.tiles) {
+                        for (const shaders::TileData& tile : batch.tiles) {
                             least = std::min(least, overreach({&mesh[i], 3}, tile));
                         }
                         // Sample positions are half a cell within the next tile.
@@ -131,7 +131,7 @@ TEST_F(RasterTileMeshes, CarryTheRectangleOfTheirTile) {
         for (const DrawnBatch& batch : tile_batches(seed, 256.0)) {
             for (const std::vector<TileVertex>& mesh : batch.meshes.tile_meshes()) {
                 for (std::size_t i = 0; i < mesh.size(); i += 3) {
-                    const auto is_its = [&](const plan::TileData& tile) {
+                    const auto is_its = [&](const shaders::TileData& tile) {
                         return std::all_of(&mesh[i], &mesh[i] + 3, [&](const TileVertex& vertex) {
                             return vertex.x == tile.atlas_x && vertex.y == tile.atlas_y &&
                                    vertex.width == tile.width && vertex.height == tile.height;

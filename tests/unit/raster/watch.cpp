@@ -1,8 +1,8 @@
-#include <engine/plan/planner.hpp>
+#include <engine/device_input/planner.hpp>
 #include <engine/raster/drawn_batch_builder.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/support/checked_queries.hpp>
+#include <tests/support/planned_queries.hpp>
 
 #include <algorithm>
 #include <set>
@@ -25,13 +25,13 @@ std::vector<DrawnBatch> tile_batches_of(
         query.strategy = strategy;
         queries.emplace_back(query);
     }
-    plan::PlanLimits limits;
+    queries::QueryLimits limits;
     limits.memory = std::uint64_t{1} << 34U;
     limits.largest_atlas = 4096;
-    plan::Planner planner(limits);
-    plan::Plan plan;
+    device_input::Planner planner(limits);
+    device_input::Plan plan;
     std::vector<AnyResult> results;
-    const std::vector<plan::QueryShapes> shapes(queries.size(), {&square, &square});
+    const std::vector<queries::QueryShapes> shapes(queries.size(), {&square, &square});
     test::plan_all(test::checked_queries(queries, shapes, limits, results), {}, planner, plan,
                    results);
     DrawnBatchBuilder builder(limits.subpixel);
@@ -58,9 +58,9 @@ TEST(RasterWatch, LargeTilesOfStencilAndDepthOnly) {
         std::set<std::uint32_t> tiles;
         for (const WatchedTile& watched : batch.watched) {
             EXPECT_TRUE(watched.strategy == S::stencil || watched.strategy == S::depth);
-            const plan::TileData& tile = batch.tiles[watched.tile];
+            const shaders::TileData& tile = batch.tiles[watched.tile];
             EXPECT_GE(tile.width * tile.height, 128U * 128U);
-            EXPECT_EQ(watched.part_a, plan::Part::volume);
+            EXPECT_EQ(watched.part_a, device_input::Part::volume);
             EXPECT_EQ(watched.a.count, 6U);
             EXPECT_TRUE(tiles.insert(watched.tile).second);
         }

@@ -12,12 +12,12 @@
 namespace nearfield::render {
 namespace {
 
-using plan::FoundPoints;
-using plan::PairGoal;
-using plan::PairQuestion;
+using device_input::FoundPoints;
+using device_input::PairGoal;
+using device_input::PairQuestion;
 using test::Random;
 
-PairCounts any_counts(Random& random, const plan::PairSearchKind& kind) {
+PairCounts any_counts(Random& random, const device_input::PairSearchKind& kind) {
     const double pairs = random.scale(0.5, random.whole(0, 20) == 0 ? 20000.0 : 300.0);
     const auto share = [&](double most) {
         return static_cast<std::uint32_t>(pairs * random.between(0.0, most));
@@ -25,10 +25,10 @@ PairCounts any_counts(Random& random, const plan::PairSearchKind& kind) {
     PairCounts counts{share(20.0), share(60.0), share(30.0), static_cast<std::uint32_t>(pairs),
                       share(4.0),  share(1.0)};
     if (kind.goal == PairGoal::tests) {
-        counts[plan::point_total] = 0;
+        counts[shaders::point_total] = 0;
     }
     if (kind.points == FoundPoints::compared) {
-        counts[plan::record_total] = 0;
+        counts[shaders::record_total] = 0;
     }
     return counts;
 }

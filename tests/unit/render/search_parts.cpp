@@ -11,8 +11,8 @@
 namespace nearfield::render {
 namespace {
 
-using plan::PairGoal;
-using plan::PairQuestion;
+using device_input::PairGoal;
+using device_input::PairQuestion;
 
 constexpr std::uint64_t everything = std::uint64_t{1} << 40U;
 constexpr PairLimits no_limits{everything, everything};
@@ -156,7 +156,7 @@ TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
     const std::uint64_t memory = bytes.scratch + bytes.found();
     world.search(parts, {everything, memory + memory / 7});
     ASSERT_EQ(parts.count(), 1U);
-    EXPECT_EQ(parts[0].capacities[plan::edge_total], all[plan::edge_total] * 9 / 8)
+    EXPECT_EQ(parts[0].capacities[shaders::edge_total], all[shaders::edge_total] * 9 / 8)
         << "an eighth is to spare";
 
     Searched one = even_world(1, 4000);
@@ -267,13 +267,13 @@ TEST(PairParts, SayWhatThatStaysIsTooLarge) {
 /// What is known of given pairs before anything is counted.
 PairCounts given(std::uint32_t pairs) {
     PairCounts counts{};
-    counts[plan::pair_total] = pairs;
-    counts[plan::item_total] = 3 * pairs;
+    counts[shaders::pair_total] = pairs;
+    counts[shaders::item_total] = 3 * pairs;
     return counts;
 }
 
 TEST(PairParts, OfGivenPairsHaveTheRoomThatIsAskedFor) {
-    PairParts parts(plan::given_pairs, false);
+    PairParts parts(device_input::given_pairs, false);
     const PairCounts room = counts_of(20000);
     EXPECT_TRUE(parts.set_given(given(20000), room));
     parts.fit(no_limits);
@@ -287,11 +287,11 @@ TEST(PairParts, OfGivenPairsHaveTheRoomThatIsAskedFor) {
 }
 
 TEST(PairParts, OfGivenPairsAreDividedAndBecomeOneAgain) {
-    PairParts parts(plan::given_pairs, false);
+    PairParts parts(device_input::given_pairs, false);
     const std::uint32_t pairs = 20000;
-    plan::SearchPush push{};
+    shaders::SearchPush push{};
     const std::uint64_t all =
-        place_pair_arrays(plan::given_pairs, 0, counts_of(pairs), push).largest();
+        place_pair_arrays(device_input::given_pairs, 0, counts_of(pairs), push).largest();
     const PairLimits limits{all / 3, everything};
     parts.set_given(given(pairs), counts_of(pairs));
     for (bool had_room = false; !had_room;) {

@@ -29,7 +29,7 @@ inline bool is_within(const PairCounts& counts, const PairCounts& most) {
 /// The instances of a world, by what a search counts of each. It is asked like a device.
 class Searched {
 public:
-    Searched(const plan::PairQuestion& question, std::vector<PairCounts> instances)
+    Searched(const device_input::PairQuestion& question, std::vector<PairCounts> instances)
         : question_(question), instances_(std::move(instances)) {}
 
     [[nodiscard]] std::uint32_t size() const {
@@ -49,7 +49,7 @@ public:
     }
 
     [[nodiscard]] PairBytes bytes(const PairCounts& capacities) const {
-        plan::SearchPush push{};
+        shaders::SearchPush push{};
         return place_pair_arrays(question_.kind(), size(), capacities, push);
     }
     /// Of the results of a search that stay on the device.
@@ -57,8 +57,8 @@ public:
         if (!question_.on_device) {
             return {};
         }
-        return {0, PairOutputs::bytes_of_records(capacities[plan::record_total]),
-                PairOutputs::bytes_of_pairs(capacities[plan::row_total])};
+        return {0, PairOutputs::bytes_of_records(capacities[shaders::record_total]),
+                PairOutputs::bytes_of_pairs(capacities[shaders::row_total])};
     }
     /// Of all that is there while the parts are searched.
     [[nodiscard]] std::uint64_t bytes(const PairParts& parts) const {
@@ -77,11 +77,11 @@ public:
     /// nothing but the items follows pairs without room.
     [[nodiscard]] PairCounts counted(const PairPart& part) const {
         PairCounts counts = counts_in_order(part);
-        if (counts[plan::pair_total] > part.capacities[plan::pair_total]) {
+        if (counts[shaders::pair_total] > part.capacities[shaders::pair_total]) {
             const PairCounts all = counts;
             counts = {};
-            counts[plan::pair_total] = all[plan::pair_total];
-            counts[plan::item_total] = all[plan::item_total];
+            counts[shaders::pair_total] = all[shaders::pair_total];
+            counts[shaders::item_total] = all[shaders::item_total];
         }
         return counts;
     }
@@ -134,8 +134,8 @@ private:
         const PairCounts all = counts(part);
         PairCounts counts{};
         double share = 1.0;
-        for (const auto stage : {plan::pair_total, plan::item_total, plan::edge_total,
-                                 plan::point_total, plan::record_total, plan::row_total}) {
+        for (const auto stage : {shaders::pair_total, shaders::item_total, shaders::edge_total,
+                                 shaders::point_total, shaders::record_total, shaders::row_total}) {
             counts[stage] = static_cast<std::uint32_t>(share * all[stage]);
             if (counts[stage] > part.capacities[stage]) {
                 share *= 1.0 * part.capacities[stage] / counts[stage];
@@ -144,7 +144,7 @@ private:
         return counts;
     }
 
-    plan::PairQuestion question_;
+    device_input::PairQuestion question_;
     std::vector<PairCounts> instances_;
 };
 

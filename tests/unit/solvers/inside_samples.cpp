@@ -15,8 +15,8 @@ using geometry::Vector;
 std::vector<Vector> samples_inside(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                    double spacing) {
     std::vector<Vector> inside;
-    for (const plan::BoundaryPoint& sample : samples::of_boundary(a, spacing)) {
-        const Vector point = plan::position(a.placed, sample);
+    for (const queries::BoundaryPoint& sample : samples::of_boundary(a, spacing)) {
+        const Vector point = queries::position(a.placed, sample);
         if (b.box.contains(point) && contains(b, point)) {
             inside.push_back(point);
         }

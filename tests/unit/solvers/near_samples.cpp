@@ -18,8 +18,8 @@ using Place = std::pair<std::uint32_t, double>;
 std::vector<Place> samples_near(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                                 double distance, double spacing) {
     std::vector<Place> near;
-    for (const plan::BoundaryPoint& sample : samples::of_boundary(a, spacing)) {
-        if (simd::find_nearest(b, plan::position(a.placed, sample)).squared <=
+    for (const queries::BoundaryPoint& sample : samples::of_boundary(a, spacing)) {
+        if (simd::find_nearest(b, queries::position(a.placed, sample)).squared <=
             distance * distance) {
             near.emplace_back(sample.edge, sample.parameter);
         }
@@ -39,8 +39,8 @@ Counts check(solvers::NearSamples& finder, const simd::TransformedEdges& a,
     finder.find(a, b, distance, spacing, [&] {
         const simd::PointArrays points = finder.points().arrays();
         for (std::size_t i = 0; i < points.count; ++i) {
-            const plan::BoundaryPoint& place = finder.place(i);
-            const Vector point = plan::position(a.placed, place);
+            const queries::BoundaryPoint& place = finder.place(i);
+            const Vector point = queries::position(a.placed, place);
             EXPECT_EQ(Vector(points.x[i], points.y[i]), point);
             EXPECT_TRUE(found.empty() || found.back() < Place(place.edge, place.parameter));
             found.emplace_back(place.edge, place.parameter);

@@ -1,9 +1,10 @@
 #include <engine/geometry/segment.hpp>
-#include <engine/plan/error_budget.hpp>
-#include <engine/plan/placed_pair.hpp>
+#include <engine/queries/error_budget.hpp>
+#include <engine/queries/placed_pair.hpp>
 #include <engine/solvers/contacts.hpp>
 
 #include <gtest/gtest.h>
+#include <shaders/layout.h>
 #include <tests/unit/solvers/test_workspace.hpp>
 #include <tests/unit/support/boundary_samples.hpp>
 #include <tests/unit/support/shape_samples.hpp>
@@ -21,8 +22,8 @@ std::vector<ContactPoint> contacts_of(const simd::TransformedEdges& a,
                                       const simd::TransformedEdges& b, const ContactQuery& query,
                                       double cell, Side side) {
     std::vector<ContactPoint> contacts;
-    for (const plan::BoundaryPoint& sample : samples::of_boundary(a, cell)) {
-        const Vector point = plan::position(a.placed, sample);
+    for (const queries::BoundaryPoint& sample : samples::of_boundary(a, cell)) {
+        const Vector point = queries::position(a.placed, sample);
         double least = std::numeric_limits<double>::infinity();
         for (std::uint32_t i = 0; i < b.count; ++i) {
             least = std::min(
@@ -61,13 +62,13 @@ TEST(PointContacts, AreAllSamplesOfBothBoundariesThatAreNear) {
                 query.tolerance = 0.02;
                 query.contact_distance = contact_distance;
                 const AnyQuery asked = query;
-                plan::CheckedQuery checked;
+                queries::CheckedQuery checked;
                 checked.query = &asked;
                 checked.a = &a;
                 checked.b = &b;
                 checked.pose_a = query.a.pose;
                 checked.pose_b = query.b.pose;
-                checked.budget = plan::contact_budget(query.tolerance, {});
+                checked.budget = queries::contact_budget(query.tolerance, {});
                 ContactResult result;
                 result.tolerance = query.tolerance;
                 result.cell = checked.budget.cell;
@@ -75,7 +76,7 @@ TEST(PointContacts, AreAllSamplesOfBothBoundariesThatAreNear) {
                 contacts.answer(checked, workspace, result);
                 ASSERT_TRUE(result.status.ok()) << result.status.text();
 
-                const plan::PlacedPair pair = plan::place_pair(checked, instances);
+                const queries::PlacedPair pair = queries::place_pair(checked, instances);
                 complete(pair, instances);
                 const simd::TransformedEdges& transformed_a = instances[pair.a];
                 const simd::TransformedEdges& transformed_b = instances[pair.b];
@@ -91,7 +92,8 @@ TEST(PointContacts, AreAllSamplesOfBothBoundariesThatAreNear) {
                     EXPECT_EQ(record.position, all[i].position);
                     EXPECT_NEAR(record.distance, all[i].distance, 1e-14);
                     EXPECT_EQ(record.on, all[i].on);
-                    const bool touches = all[i].distance <= plan::touching_depth * query.tolerance;
+                    const bool touches =
+                        all[i].distance <= shaders::touching_depth * query.tolerance;
                     EXPECT_EQ(record.inside, all[i].inside && !touches) << record.distance;
                     inside += record.inside ? 1 : 0;
                 }

@@ -1,4 +1,4 @@
-#include <engine/plan/error_budget.hpp>
+#include <engine/queries/error_budget.hpp>
 #include <engine/solvers/penetration.hpp>
 
 #include <gtest/gtest.h>
@@ -35,12 +35,12 @@ public:
     std::vector<PenetrationResult> answer(const std::array<Asked, 2>& asked,
                                           PenetrationSolver& penetration) {
         std::array<AnyQuery, 2> queries{query_of(asked[0]), query_of(asked[1])};
-        std::array<plan::CheckedQuery, 2> checked;
+        std::array<queries::CheckedQuery, 2> checked;
         for (std::size_t i = 0; i < 2; ++i) {
             checked[i].query = &queries[i];
             checked[i].a = i == 0 ? a_ : b_;
             checked[i].b = i == 0 ? b_ : a_;
-            checked[i].budget = plan::penetration_budget(query_of(asked[i]));
+            checked[i].budget = queries::penetration_budget(query_of(asked[i]));
         }
         TestWorkspace workspace;
         penetration.begin_batch();

@@ -11,12 +11,12 @@ namespace nearfield::solvers {
 struct TestWorkspace : Workspace {
     explicit TestWorkspace(std::uint64_t bytes = std::uint64_t{1} << 30U) {
         limits.memory = bytes;
-        limits = plan::with_affordable_atlas(limits);
+        limits = queries::with_affordable_atlas(limits);
         budget.emplace(limits);
         memory = &*budget;
     }
 
-    std::optional<plan::MemoryBudget> budget;
+    std::optional<queries::MemoryBudget> budget;
 };
 
 }  // namespace nearfield::solvers

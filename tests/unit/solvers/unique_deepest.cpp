@@ -1,4 +1,4 @@
-#include <engine/plan/error_budget.hpp>
+#include <engine/queries/error_budget.hpp>
 #include <engine/solvers/penetration.hpp>
 
 #include <gtest/gtest.h>
@@ -23,12 +23,12 @@ PenetrationResult answer(const Polygon& a, const Polygon& b, const Pose& pose_a,
     query.points = PenetrationPoints::vertices;
     query.summary_only = !records;
     const AnyQuery asked = query;
-    plan::CheckedQuery checked;
+    queries::CheckedQuery checked;
     checked.query = &asked;
     checked.a = &a;
     checked.b = &b;
     checked.pose_a = pose_a;
-    checked.budget = plan::penetration_budget(query);
+    checked.budget = queries::penetration_budget(query);
     PenetrationResult result;
     result.tolerance = d;
     result.cell = checked.budget.cell;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <engine/geometry/transformed_polygon.hpp>
-#include <engine/plan/simplified_shapes.hpp>
-#include <engine/plan/tile_edges.hpp>
+#include <engine/queries/simplified_shapes.hpp>
+#include <engine/queries/tile_edges.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
@@ -24,8 +24,8 @@ struct TileCase {
     std::string name;
     geometry::Polygon polygon;
     Pose pose;
-    plan::SimplifiedShapes shapes;
-    std::optional<plan::TileBoundary> placed;
+    queries::SimplifiedShapes shapes;
+    std::optional<queries::TileBoundary> placed;
 
     TileCase(const NamedRings& shape, std::uint64_t seed, double deviation) {
         Random random(seed);
@@ -36,11 +36,11 @@ struct TileCase {
                  random.between(-0.7, 0.7) * size + 0.5 * height},
                 random.between(0.0, 7.0)};
         placed.emplace(shapes.get(polygon, deviation, 64.0),
-                       plan::ToCells(geometry::TransformedPolygon(polygon, pose),
-                                     geometry::Vector::Zero(), 1.0));
+                       queries::ToCells(geometry::TransformedPolygon(polygon, pose),
+                                        geometry::Vector::Zero(), 1.0));
     }
 
-    [[nodiscard]] const plan::TileBoundary& boundary() const { return *placed; }
+    [[nodiscard]] const queries::TileBoundary& boundary() const { return *placed; }
 };
 
 inline std::vector<std::unique_ptr<TileCase>> cases(double deviation) {
