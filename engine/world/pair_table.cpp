@@ -432,7 +432,7 @@ template <class Query>
 struct PairTable<Query>::Rows final : State {
     using Row = PairRow<Query>;
 
-    Rows(const Query& query, const PairTableOptions& options) : State(query, options) {}
+    Rows(const Query& asked, const PairTableOptions& how) : State(asked, how) {}
 
     [[nodiscard]] std::span<const Row> rows() {
         if (device != nullptr) {

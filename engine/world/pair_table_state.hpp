@@ -11,8 +11,7 @@ namespace nearfield {
 
 /// What a table keeps from update to update, whoever answers. Its members throw.
 struct PairTableBase::State {
-    State(const AnyQuery& query, const PairTableOptions& options)
-        : query(query), options(options) {}
+    State(const AnyQuery& asked, const PairTableOptions& how) : query(asked), options(how) {}
     virtual ~State() = default;
     State(const State&) = delete;
     State& operator=(const State&) = delete;

@@ -230,7 +230,7 @@ TEST_F(DevicePairPoses, AreNotKept) {
 }
 
 TEST_F(DevicePairPoses, ThatAreNoneAreNamed) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr float infinite = std::numeric_limits<float>::infinity();
     constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
     add_squares(100);
     const std::vector<HostPose> usable(100, {1.0F, 2.0F, -0.6F, 0.8F});
@@ -238,11 +238,11 @@ TEST_F(DevicePairPoses, ThatAreNoneAreNamed) {
     PairTable table(IntersectionTestQuery{}, on_device);
     buffer.poses().origin = {1e11, 0.0};
     for (const HostPose& bad :
-         {HostPose{no_number, 0.0F, 1.0F, 0.0F}, HostPose{0.0F, infinity, 1.0F, 0.0F},
-          HostPose{0.0F, -infinity, 1.0F, 0.0F}, HostPose{0.95e12F, 0.0F, 1.0F, 0.0F},
+         {HostPose{no_number, 0.0F, 1.0F, 0.0F}, HostPose{0.0F, infinite, 1.0F, 0.0F},
+          HostPose{0.0F, -infinite, 1.0F, 0.0F}, HostPose{0.95e12F, 0.0F, 1.0F, 0.0F},
           HostPose{0.0F, 0.0F, 0.0F, 0.0F}, HostPose{0.0F, 0.0F, 1.0F, no_number},
           HostPose{0.0F, 0.0F, 1.01F, 0.0F}, HostPose{0.0F, 0.0F, 0.0F, 0.99F},
-          HostPose{0.0F, 0.0F, infinity, 0.0F}, HostPose{0.0F, 0.0F, 1e30F, 0.0F}}) {
+          HostPose{0.0F, 0.0F, infinite, 0.0F}, HostPose{0.0F, 0.0F, 1e30F, 0.0F}}) {
         std::vector<HostPose> poses = usable;
         poses[71] = poses[93] = bad;
         buffer.write(poses);

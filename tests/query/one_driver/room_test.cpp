@@ -29,9 +29,7 @@ Function driver(const char* name) {
 class Guards {
 public:
     static test_support::Lies lies() {
-        const auto erased = [](auto function) {
-            return reinterpret_cast<PFN_vkVoidFunction>(function);
-        };
+        using test_support::erased;
         state() = {};
         test_support::Lies lies;
         lies.memory = [](VkPhysicalDeviceMemoryProperties& properties) {
