@@ -173,8 +173,8 @@ struct ExportFieldPush {
     uint rings;  // of B in the tables: the first edge of each, then the number of all edges
     uint ring_count;
     float cell;
-    vec2 origin;        // low corner of the field's first cell
-    uint field_width;   // cells of the whole field
+    vec2 origin;       // low corner of the field's first cell
+    uint field_width;  // cells of the whole field
     uint field_height;
 };
 
