@@ -2,6 +2,7 @@
 #include <engine/render/batch_resources.hpp>
 
 #include <cstring>
+#include <utility>
 
 namespace nearfield::render {
 
@@ -20,8 +21,9 @@ BatchResources::BatchResources(const gpu::Device& device, const graph::ComputeLa
     if (drawn != nullptr) {
         tiles_.push_back(drawn->make_work());
     }
-    tiles_.push_back(computed.make_work());
-    computed_ = static_cast<ComputedTiles*>(tiles_.back().get());
+    auto own = computed.make_computed();
+    computed_ = own.get();
+    tiles_.push_back(std::move(own));
 }
 
 BatchResources::~BatchResources() {

@@ -52,6 +52,10 @@ void ComputeGraph::declare_masked(const PipelineSet& passes, passes::Fields::Out
 }
 
 std::unique_ptr<TileWork> ComputeTechnique::make_work() {
+    return make_computed();
+}
+
+std::unique_ptr<ComputedTiles> ComputeTechnique::make_computed() {
     return std::make_unique<ComputedTiles>(*device_, *layout_, *this);
 }
 

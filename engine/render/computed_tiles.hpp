@@ -19,6 +19,8 @@
 
 namespace nearfield::render {
 
+class ComputedTiles;
+
 /// The outputs that a tile batch of the compute technique needs, which determine its graph.
 struct ComputeKey {
     bool field_values = false;
@@ -58,8 +60,8 @@ public:
                      const PipelineSet& passes)
         : device_(&device), layout_(&layout), passes_(&passes) {}
 
-    /// ComputedTiles.
     [[nodiscard]] std::unique_ptr<TileWork> make_work() override;
+    [[nodiscard]] std::unique_ptr<ComputedTiles> make_computed();
     void trim() noexcept override {
         TileTechnique::trim();
         graphs_.clear();
