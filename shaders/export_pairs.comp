@@ -4,6 +4,7 @@
 // What stays on the device of the pairs of a part of a world, one thread per row, behind those of the
 // parts before; and how many pairs and records there are so far.
 
+#include "export.h"
 #include "nearfield/nearfield.glsl"
 #include "push.h"
 #include "pairs.h"
@@ -16,7 +17,7 @@ layout(std430, set = 0, binding = 0) readonly buffer Instances {
 };
 struct Header {
     NearfieldHeader header;
-    uint unused[words_between_headers - 20u];
+    uint unused[words_between_headers - bytes_of_header / 4u];
 };
 layout(std430, set = 0, binding = 1) writeonly buffer Headers {
     Header headers[2];  // of pairs and records

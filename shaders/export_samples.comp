@@ -3,8 +3,8 @@
 
 // Writes the summary and the samples of an intersection from the masks of its tiles, ordered by
 // region, row and column, in three steps: one thread per row of a tile counts, one thread computes
-// prefix sums and writes summary and header, one thread per row writes its samples. Boxes and counts of whole tiles come from the
-// summaries that the host reads too.
+// prefix sums and writes summary and header, one thread per row writes its samples. Boxes and counts
+// of whole tiles come from the summaries that the host reads too.
 
 #include "export.glsl"
 #include "header.glsl"

@@ -31,9 +31,8 @@ enum class TileKind : std::uint8_t {
 struct PlannedTile : queries::Tile {
     std::uint32_t query = 0;
     TileKind kind{};
-    std::uint32_t tile_batch =
-        0;  ///< that it is part of, and its place in the atlas if it is drawn
-    std::uint32_t atlas_x = 0;
+    std::uint32_t tile_batch = 0;  ///< that it is part of
+    std::uint32_t atlas_x = 0;     ///< its place there, if it is drawn
     std::uint32_t atlas_y = 0;
     /// The blocks of the tile that hold points; all of them for a field. Unused for overlap.
     NeededBlocks needed;
@@ -100,8 +99,8 @@ struct PlannedQuery : queries::CheckedQuery {
 /// The pairs that a batch gives to the device's search: queries, or directions of them, whose
 /// points it finds.
 struct GivenPairs {
-    std::vector<shaders::SearchDirectionData>
-        directions;  ///< `a`: the query's place in Plan::queries
+    /// `a`: the query's place in Plan::queries.
+    std::vector<shaders::SearchDirectionData> directions;
     std::uint32_t items = 0;
     double max_edges = 0.0;  ///< upper bounds on what the device may find
     double max_points = 0.0;

@@ -10,7 +10,7 @@
 namespace nearfield::queries {
 
 /// Adds the time from construction to destruction to one part of a query's time. Does nothing, and
-/// reads no clock, if there are no times (Plan::times).
+/// reads no clock, if there are no times.
 class QueryTimer {
 public:
     QueryTimer(std::span<QueryTime> times, std::size_t query, double QueryTime::*part)

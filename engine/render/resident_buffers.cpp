@@ -131,7 +131,8 @@ void ResidentBuffers::grow(std::vector<Place>& places, std::size_t i, std::uint6
 }
 
 void ResidentBuffers::lay_out_buffer() {
-    const auto reserve = [this](const auto& outputs, const char* what, std::vector<Place>& places) {
+    const auto grow_all = [this](const auto& outputs, const char* what,
+                                 std::vector<Place>& places) {
         for (std::size_t i = 0; i < outputs.size(); ++i) {
             const device_input::BufferOutput& output = outputs[i];
             require_range(*device_, output.bytes, what);
@@ -143,8 +144,8 @@ void ResidentBuffers::lay_out_buffer() {
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
         grow(field_places_, i, 0, 0);
     }
-    reserve(resident_->records, "the records", places_);
-    reserve(resident_->samples, "the samples that stay", sample_places_);
+    grow_all(resident_->records, "the records", places_);
+    grow_all(resident_->samples, "the samples that stay", sample_places_);
     if (!are_laid_out_) {
         move_places();
     }
