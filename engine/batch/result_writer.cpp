@@ -5,6 +5,7 @@
 #include <engine/queries/query_timer.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -169,7 +170,8 @@ void ResultWriter::write(const device_input::Plan& plan, std::span<const std::ui
     answers.write_drawn_samples(results);
     // Other batches may have been answered in between.
     instances_.begin_batch();
-    known_.fill({});
+    constexpr std::size_t most = 1024;
+    known_.assign(std::bit_ceil(std::min(queries.size(), most)), {});
     for (const std::uint32_t index : queries) {
         const PlannedQuery& planned = plan.queries[index];
         if (answers.pairs().are_left_to_cpu() &&

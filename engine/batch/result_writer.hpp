@@ -12,7 +12,6 @@
 #include <engine/solvers/found_contacts.hpp>
 #include <nearfield/result.hpp>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -65,7 +64,7 @@ private:
         std::uint32_t high = UINT32_MAX;
         bool intersects = false;
     };
-    std::array<KnownPair, 1024> known_;  // by hash
+    std::vector<KnownPair> known_;  // by hash
 };
 
 }  // namespace nearfield::batch
