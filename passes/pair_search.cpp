@@ -15,7 +15,6 @@
 #include <shaders/search_items_comp.hpp>
 #include <shaders/search_pack_comp.hpp>
 #include <shaders/search_points_comp.hpp>
-#include <shaders/search_scan_comp.hpp>
 #include <shaders/search_spread_comp.hpp>
 
 namespace nearfield::passes {
@@ -47,7 +46,6 @@ InstanceShaders::InstanceShaders(const gpu::Device& device, const graph::Compute
 
 SearchShaders::SearchShaders(const gpu::Device& device, const graph::ComputeLayout& layout)
     : items(device, layout, shaders::search_items_comp, "nearfield pair items"),
-      scan(device, layout, shaders::search_scan_comp, "nearfield pair scan"),
       spread(device, layout, shaders::search_spread_comp, "nearfield pair spread"),
       edges(device, layout, shaders::search_edges_comp, "nearfield pair edges"),
       points(device, layout, shaders::search_points_comp, "nearfield pair points"),
@@ -125,19 +123,11 @@ void PairSearch::add(Versions& at, const char* name, const ComputeShader& shader
         threads_of, no_stage);
 }
 
-/// A pass that turns the sums of the blocks of a stage into places.
-void PairSearch::add_scan(Versions& at, const char* name, std::uint32_t stage) {
-    add_pass(
-        part_.graph, name, shaders_->scan, {{1, at.scratch, write}, {3, at.arguments, write}},
-        [this, stage](const ComputeShader& scan, VkCommandBuffer commands, const Input& input) {
-            scan.push(commands, push_of(input, stage));
-            const auto& room = input.capacities;
-            scan.dispatch(commands, stage == shaders::edge_total
-                                        ? scan_groups(room[shaders::item_total])
-                                    : stage == shaders::point_total
-                                        ? scan_groups(room[shaders::edge_total])
-                                        : scan_groups_of_points(room[shaders::point_total]));
-        });
+void PairSearch::add_counting(Versions& at, const char* name, const ComputeShader& shader,
+                              std::uint32_t threads_of, std::uint32_t stage) {
+    add(part_, name, shader,
+        {{0, at.shapes}, {1, at.scratch, write}, {3, at.arguments, Access::written_arguments}},
+        threads_of, stage);
 }
 
 void PairSearch::declare_found_pairs(Versions& at) {
@@ -166,8 +156,7 @@ void PairSearch::declare_given_pairs(Versions& at) {
 
 /// The edges of the directions that are not far from the other shape.
 void PairSearch::declare_edges(Versions& at) {
-    add(at, "pair items", shaders_->items, shaders::item_total);
-    add_scan(at, "count edges", shaders::edge_total);
+    add_counting(at, "pair items", shaders_->items, shaders::item_total, shaders::edge_total);
     add(at, "spread edges", shaders_->spread, shaders::item_total);
 }
 
@@ -176,12 +165,10 @@ void PairSearch::declare_points(Versions& at, const device_input::PairSearchKind
     if (finds_contacts) {
         add(at, "pair crossings", finding_->crossings, shaders::edge_total);
     }
-    add(at, "pair edges", shaders_->edges, shaders::edge_total);
-    add_scan(at, "count points", shaders::point_total);
-    add(at, "pair points", shaders_->points, shaders::point_total);
-    if (kind.points != device_input::FoundPoints::compared) {
-        add_scan(at, "count found points", shaders::record_total);
-    }
+    add_counting(at, "pair edges", shaders_->edges, shaders::edge_total, shaders::point_total);
+    const bool has_records = kind.points != device_input::FoundPoints::compared;
+    add_counting(at, "pair points", shaders_->points, shaders::point_total,
+                 has_records ? shaders::record_total : no_stage);
     add_answers(at, "pair summaries", finds_contacts ? finding_->contacts : shaders_->summaries);
     if (kind.reads_points()) {
         add(part_, "pack points", shaders_->pack,

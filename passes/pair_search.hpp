@@ -22,17 +22,6 @@ namespace nearfield::passes {
 inline constexpr VkDeviceSize search_argument_bytes =
     shaders::words_of_arguments * sizeof(std::uint32_t);
 
-/// The workgroups that scan the blocks of so many elements.
-[[nodiscard]] constexpr std::uint32_t scan_groups(std::uint64_t elements) {
-    constexpr std::uint64_t scanned = std::uint64_t{shaders::scan_block} * shaders::search_block;
-    return elements == 0 ? 1 : static_cast<std::uint32_t>((elements + scanned - 1) / scanned);
-}
-/// The same of the threads that look at so many points.
-[[nodiscard]] constexpr std::uint32_t scan_groups_of_points(std::uint32_t points) {
-    return scan_groups((std::uint64_t{points} + shaders::points_per_thread - 1) /
-                       shaders::points_per_thread);
-}
-
 /// The shaders that make the boxes of a world's instances, and the levels above them.
 struct InstanceShaders {
     InstanceShaders(const gpu::Device& device, const graph::ComputeLayout& layout);
@@ -46,7 +35,6 @@ struct SearchShaders {
     SearchShaders(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     ComputeShader items;
-    ComputeShader scan;
     ComputeShader spread;
     ComputeShader edges;
     ComputeShader points;
@@ -73,13 +61,13 @@ struct FoundPairShaders {
 /// The passes that search all pairs of a world's instances, or the pairs that a batch gives, for
 /// what is asked about them. One graph searches a part of them, and follows itself for each of
 /// these parts, which take turns with the same scratch memory: it finds the directions of the
-/// pairs, or takes those that are given; then come items, edges and points, each followed by a scan
-/// that counts what they leave to the next, and a summary per pair, or a test whether the two
-/// shapes meet; last, the points for the host, and the rows of those pairs that have an answer. To
-/// find the pairs, each instance's are counted and listed; another graph, before all parts, makes
-/// the boxes for that. The number of dispatches depends neither on the number of instances nor on
-/// that of the pairs of a part. The commands need nothing from the CPU, so that they can be
-/// submitted again and again.
+/// pairs, or takes those that are given; then come items, edges and points, each of which counts
+/// what it leaves to the next, and a summary per pair, or a test whether the two shapes meet; last,
+/// the points for the host, and the rows of those pairs that have an answer. To find the pairs,
+/// each instance's are counted and listed; another graph, before all parts, makes the boxes for
+/// that. The number of dispatches depends neither on the number of instances nor on that of the
+/// pairs of a part. The commands need nothing from the CPU, so that they can be submitted again and
+/// again.
 class PairSearch {
 public:
     /// The shaders must stay. `finding`: null where the pairs are given.
@@ -126,7 +114,9 @@ private:
     void declare_rows(Versions& at);
     /// Adds a pass of a part that writes into the scratch memory, with a thread per edge or point.
     void add(Versions& at, const char* name, const ComputeShader& shader, std::uint32_t threads_of);
-    void add_scan(Versions& at, const char* name, std::uint32_t stage);
+    /// One that also says how much it leaves to a stage.
+    void add_counting(Versions& at, const char* name, const ComputeShader& shader,
+                      std::uint32_t threads_of, std::uint32_t stage);
     void add_answers(Versions& at, const char* name, const ComputeShader& shader);
     /// Adds any pass. `stage`: that the shader counts.
     void add(Passes& passes, const char* name, const ComputeShader& shader,

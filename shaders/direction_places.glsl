@@ -64,7 +64,7 @@ uint place_before(bool begins, uint points, uint block_word) {
     add_places(places, before);
     add_edge(places, points_of_edges[own]);
     if (own + 1u == search_block) {
-        scratch[block_word] = places.whole + padded(places.last);
+        shared_scratch[block_word] = places.whole + padded(places.last);
     }
     return places.whole + places.last - points;
 }

@@ -83,7 +83,7 @@ const uint records_so_far = 7u;
 const uint overflow_so_far = 14u;
 // 1: an instance has max_pairs or more, or so many items, and cannot be searched.
 const uint has_too_many_pairs = 15u;
-NEARFIELD_CHECK(has_too_many_pairs < words_of_totals)
+NEARFIELD_CHECK(has_too_many_pairs < finished_groups)
 // In place of the number of pairs that the host reads, then.
 const uint too_many_pairs = 0xfffffffeu;
 NEARFIELD_CHECK(stages_of_pairs <= rows_so_far && records_so_far < first_counted)

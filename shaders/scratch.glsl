@@ -7,6 +7,10 @@ layout(std430, set = 0, binding = 1) buffer ScratchUnits {
     uvec4 scratch_units[];  // the same memory
 };
 layout(set = 0, binding = 9) uniform usamplerBuffer scratch_texels;  // and again
+// And again: what workgroups of one dispatch tell each other.
+layout(std430, set = 0, binding = 1) coherent buffer SharedScratch {
+    uint shared_scratch[];
+};
 
 // The parts of the scratch memory that earlier dispatches have written.
 uvec4 scratch_unit(uint unit) {

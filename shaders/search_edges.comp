@@ -10,6 +10,10 @@
 
 layout(local_size_x = group_size) in;
 
+#include "sums.glsl"
+#include "totals.glsl"
+#include "scan.glsl"
+
 // The points from + t * d, 0 <= t <= 1.
 struct Line {
     vec2 from;
@@ -192,4 +196,5 @@ void main() {
         scratch_units[unit] = uvec4(edge, points.first, place);
         scratch_units[unit + 1u] = uvec4(points.ask_begin, points.ask_end, points.count, 0u);
     }
+    scan(push.edge_blocks, scratch[edge_total]);
 }

@@ -9,6 +9,8 @@
 layout(local_size_x = group_size) in;
 
 #include "sums.glsl"
+#include "totals.glsl"
+#include "scan.glsl"
 
 uint edges_of(uint item, uint direction_index) {
     SearchDirectionData direction = direction_at(direction_index);
@@ -48,4 +50,5 @@ void main() {
         scratch[push.item_words + words_of_item * item] = mask | before << 8;
         scratch[push.item_words + words_of_item * item + 1u] = direction;
     }
+    scan(push.item_blocks, item_count());
 }

@@ -10,6 +10,8 @@
 layout(local_size_x = group_size) in;
 
 #include "sums.glsl"
+#include "totals.glsl"
+#include "scan.glsl"
 #include "four_points.glsl"
 #include "nearest_edges.glsl"
 
@@ -142,5 +144,8 @@ void main() {
         scratch[push.depths + index + i] =
             floatBitsToUint(found[i] != 0u ? depths[i] : nothing_found);
         before += found[i];
+    }
+    if (push.stage == record_total) {  // where anybody asks for numbers of points
+        scan(push.point_blocks, threads_for(total));
     }
 }

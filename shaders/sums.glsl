@@ -38,17 +38,21 @@ uint sum_before_thread(uint own_sum) {
 uint sum_before(uint count, uint block_word) {
     uint before = sum_before_thread(count);
     if (gl_LocalInvocationID.x + 1u == gl_WorkGroupSize.x) {
-        scratch[block_word] = added(before, count);
+        shared_scratch[block_word] = added(before, count);
     }
     return before;
+}
+
+// Four words of an array from the one of that number on; 0 beyond its end.
+uvec4 words_until(uvec4 words, uint number, uint count) {
+    return mix(uvec4(0u), words, lessThan(number + uvec4(0u, 1u, 2u, 3u), uvec4(count)));
 }
 
 // Four words of an array from the one of that number on, which four divides; 0 beyond its end. `first`:
 // the array's first word, the first one of a unit.
 uvec4 words_from(uint number, uint first, uint count) {
     uint last = max(count, 1u) - 1u;
-    uvec4 words = scratch_unit((first + min(number, last)) / 4u);
-    return mix(uvec4(0u), words, lessThan(number + uvec4(0u, 1u, 2u, 3u), uvec4(count)));
+    return words_until(scratch_unit((first + min(number, last)) / 4u), number, count);
 }
 
 uint sum_of_four(uvec4 words) {

@@ -14,6 +14,7 @@ void begin_totals() {
     for (uint stage = 0u; stage < stages; ++stage) {
         scratch[stage] = scratch[first_counted + stage] = 0u;
     }
+    scratch[finished_groups] = 0u;
 }
 
 // Says how many elements a stage has counted, and how many of them there is room for.

@@ -33,7 +33,7 @@ bool draws(VkQueueFlags queue) {
 // Attachments are read as well as written: load operations, blending, logic operations and tests
 // depend on the previous content. All reads of images share one layout, and all reads of one kind
 // of resource differ in their stages; so a read after a read needs no check of the layout.
-constexpr std::array<AccessTraits, 13> accesses = {{
+constexpr std::array<AccessTraits, 14> accesses = {{
     {.name = "color_attachment",
      .stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
      .read_access = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT,
@@ -98,6 +98,12 @@ constexpr std::array<AccessTraits, 13> accesses = {{
     {.name = "indirect_arguments",
      .stages = VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
      .read_access = VK_ACCESS_INDIRECT_COMMAND_READ_BIT,
+     .pass_kind = PassKind::compute},
+    {.name = "written_arguments",
+     .stages = VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+     .read_access = VK_ACCESS_INDIRECT_COMMAND_READ_BIT,
+     .write_access = VK_ACCESS_SHADER_WRITE_BIT,
+     .writes = true,
      .pass_kind = PassKind::compute},
     {.name = "exported_buffer",
      .stages = shaders_of_users | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |

@@ -25,6 +25,7 @@ enum class Access : std::uint8_t {
     transfer_read,             ///< buffer, read by a copy
     storage_image_in_compute,  ///< image, written by a compute shader
     indirect_arguments,        ///< buffer, read as the arguments of a dispatch
+    written_arguments,         ///< the same of one that writes arguments of later dispatches
     // Uses outside any graph, between this one and its next execution (ExternalAccess).
     exported_buffer,  ///< buffer, read by the shaders of the library's user
     exported_image,   ///< image, sampled by the shaders of the library's user

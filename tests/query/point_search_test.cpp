@@ -345,10 +345,10 @@ TEST_F(PointSearch, HoldsForTensOfThousandsOfEdges) {
     EXPECT_GT(found.count, 100U);
 }
 
-// Three times as many blocks of edges as one workgroup scans.
+// So many blocks of edges that each thread that scans them takes dozens.
 TEST_F(PointSearch, HoldsForManyBlocks) {
     Random random(point_search_seed + 7000);
-    const Rings large = coast(random, 3 * shaders::scan_block * shaders::search_block, 0.1);
+    const Rings large = coast(random, 3000 * shaders::search_block, 0.1);
     const Pair pair{{"coast", large}, {"square", rectangle({-0.8, -2}, {2, 2})}, {}, {}, 0.01};
     const PlacedPair placed(context(), pair, Technique::compute);
     PenetrationQuery query = placed.penetration(PenetrationPoints::vertices);

@@ -60,6 +60,10 @@ Need need(Access access) {
         case Access::indirect_arguments:
             return {VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, VK_ACCESS_INDIRECT_COMMAND_READ_BIT, 0,
                     VK_IMAGE_LAYOUT_UNDEFINED};
+        case Access::written_arguments:
+            return {VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                    VK_ACCESS_INDIRECT_COMMAND_READ_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                    VK_IMAGE_LAYOUT_UNDEFINED};
         case Access::exported_buffer:
             return {shaders_of_users, VK_ACCESS_SHADER_READ_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED};
         case Access::exported_image:
