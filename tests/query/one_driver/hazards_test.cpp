@@ -157,7 +157,8 @@ protected:
     }
 
     /// What was recorded has no hazard, and would have one without any of its dependencies.
-    static void check() {
+    /// `in_parts`: pairs are searched in several parts.
+    static void check(bool in_parts = false) {
         const auto recordings = BufferAccesses::recordings();
         EXPECT_EQ(find_hazards(recordings), std::vector<std::string>{});
         int checked = 0;
@@ -173,6 +174,9 @@ protected:
             }
             if (buffer == "nearfield resident pair records" && dependency.source == 0) {
                 continue;  // the wait before the pairs is one for all that follows
+            }
+            if (!in_parts && buffer == "nearfield pair arguments" && dependency.source == 0) {
+                continue;  // a part waits for the dispatches of the one before
             }
             // Two resources of a graph can stand in one buffer, whose barriers cover both.
             const bool is_covered = std::any_of(all.begin(), all.end(), [&](const auto& other) {
@@ -241,7 +245,7 @@ TEST_F(Hazards, AreInNoPartsOfDevicePairs) {
     update_device_pairs(100, PenetrationQuery{.tolerance = 0.2});
     update_device_pairs(100, ContactQuery{.tolerance = 0.2, .contact_distance = 0.05});
     update_device_pairs(100, IntersectionTestQuery{});
-    check();
+    check(true);
     start_anew(1U << 20U);
     leave_device_pairs(PenetrationQuery{
         .tolerance = 0.2, .points = vertices, .summary_only = true, .on_device = true});
