@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -61,13 +62,23 @@ TEST(Hash, IsTheCommittedOneForEverySection) {
     }
 }
 
+/// The outlines are shapes of thousands of edges, which have trees of boxes.
 TEST(Hash, IsTheSameOnEveryInstructionSet) {
-    const std::vector<std::uint64_t> expected = sample(cpu_context);
+    const auto outlines =
+        std::find_if(sections().begin(), sections().end(),
+                     [](const Section& one) { return std::string_view(one.name) == "outlines"; });
+    ASSERT_NE(outlines, sections().end());
+    const auto sample_and_outlines = [&] {
+        std::vector<std::uint64_t> hashes = sample(cpu_context);
+        hashes.push_back(outlines->hash(cpu_context));
+        return hashes;
+    };
+    const std::vector<std::uint64_t> expected = sample_and_outlines();
     int count = 0;
     for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
         const std::int64_t target = left & ~(left - 1);
         const OnlyTarget only(target);
-        EXPECT_EQ(sample(cpu_context), expected) << hwy::TargetName(target);
+        EXPECT_EQ(sample_and_outlines(), expected) << hwy::TargetName(target);
         ++count;
     }
     EXPECT_GT(count, 1);

@@ -3,25 +3,12 @@
 #include <gtest/gtest.h>
 #include <tests/unit/support/shape_samples.hpp>
 
-#include <cmath>
-#include <limits>
-
 namespace nearfield::narrowphase {
 namespace {
 
 using geometry::Polygon;
 using geometry::TransformedPolygon;
 using geometry::Vector;
-
-double brute_force_squared_distance(const TransformedPolygon& placed, const Vector& point) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < placed.polygon().size(); ++i) {
-        const auto nearest = geometry::nearest_on_segment(point, placed.vertex(i),
-                                                          placed.vertex(placed.polygon().next(i)));
-        least = std::min(least, nearest.squared_distance);
-    }
-    return least;
-}
 
 template <class Check>
 void for_each_placed_shape(const Check& check) {
@@ -34,40 +21,6 @@ void for_each_placed_shape(const Check& check) {
             check(placed, random);
         }
     }
-}
-
-Vector any_point(const TransformedPolygon& placed, samples::Random& random) {
-    return placed.to_world({random.between(-2.0, 2.0), random.between(-2.0, 2.0)});
-}
-
-TEST(ExactBoundary, NearestIsThatOfBruteForce) {
-    for_each_placed_shape([](const TransformedPolygon& placed, samples::Random& random) {
-        Boundary boundary;
-        boundary.set(placed);
-        for (int i = 0; i < 200; ++i) {
-            const Vector p = any_point(placed, random);
-            const NearestPoint nearest = boundary.nearest(p);
-            // Coincident walls are transformed to positions that differ by the rounding at 10,000.
-            EXPECT_NEAR(nearest.on_edge.squared_distance, brute_force_squared_distance(placed, p),
-                        1e-12);
-            const auto on_edge = geometry::nearest_on_segment(
-                p, placed.vertex(nearest.edge), placed.vertex(placed.polygon().next(nearest.edge)));
-            EXPECT_EQ(on_edge.point, nearest.on_edge.point);
-        }
-    });
-}
-
-TEST(ExactBoundary, ContainsIsThatOfTheWholePolygon) {
-    for_each_placed_shape([](const TransformedPolygon& placed, samples::Random& random) {
-        Boundary boundary;
-        boundary.set(placed);
-        for (int i = 0; i < 200; ++i) {
-            const Vector p = any_point(placed, random);
-            if (brute_force_squared_distance(placed, p) > 1e-18) {
-                EXPECT_EQ(boundary.contains(p), contains(placed, p)) << p.transpose();
-            }
-        }
-    });
 }
 
 TEST(ExactBoundary, NormalsLeadOut) {

@@ -72,49 +72,6 @@ TEST(ClosestOfSegments, NoSampleIsCloser) {
     }
 }
 
-TEST(ClosestPair, IsThatOfBruteForceFarAndNear) {
-    samples::Random random(77);
-    const auto shapes = samples::assorted_shapes(random);
-    ClosestPairFinder finder;
-    OverlapTest overlap_test;
-    int apart = 0;
-    int met = 0;
-    for (const auto& first : shapes) {
-        for (const auto& second : shapes) {
-            SCOPED_TRACE(first.name + " and " + second.name);
-            const Polygon polygon_a = samples::polygon(first.rings);
-            const Polygon polygon_b = samples::polygon(second.rings);
-            for (const double off : {0.0, 2.5}) {
-                const Pose pose_a{{}, random.between(-3.0, 3.0)};
-                const Pose pose_b{{off + random.between(0.0, 4.0), random.between(-1.0, 1.0)}, 0.4};
-                const PlacedPair placed(polygon_a, pose_a, polygon_b, pose_b);
-                const double truth =
-                    brute_force_squared_distance(placed.a().placed, placed.b().placed);
-                if (truth == 0.0) {
-                    simd::EdgePair edges;
-                    EXPECT_TRUE(overlap_test.boundaries_meet(placed.a(), placed.b(), edges));
-                    ++met;
-                    continue;
-                }
-                ++apart;
-                const ClosestPair pair = finder.find(placed.a(), placed.b(), infinity, 0.0);
-                EXPECT_EQ(pair.squared_distance, truth);
-                EXPECT_NEAR((pair.point_a - pair.point_b).squaredNorm(), truth, 1e-15);
-                // Known bounds do not change the answer.
-                const auto known = [&](double at_most) {
-                    return finder.find(placed.a(), placed.b(), at_most, 0.1).squared_distance;
-                };
-                EXPECT_EQ(known(std::sqrt(truth)), truth);
-                EXPECT_EQ(known(2.0 * std::sqrt(truth) + 1e-9), truth);
-                EXPECT_EQ(finder.find(placed.b(), placed.a(), infinity, 0.0).squared_distance,
-                          truth);
-            }
-        }
-    }
-    EXPECT_GT(met, 20);
-    EXPECT_GT(apart, 20);
-}
-
 TEST(OverlapTest, ShapesThatTouchUpToRoundingMeet) {
     const Polygon square = samples::polygon({samples::rectangle(-0.5, -0.5, 0.5, 0.5)});
     OverlapTest overlap_test;
@@ -129,41 +86,6 @@ TEST(OverlapTest, ShapesThatTouchUpToRoundingMeet) {
                                {{far + 1.0 + 9.0 * rounding, far}, 0.0});
         EXPECT_FALSE(overlap_test.intersect(apart.a(), apart.b())) << far;
     }
-}
-
-TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
-    const Polygon wall = samples::polygon({samples::rectangle(0.0, 0.0, 10.0, 1.0)});
-    ClosestPairFinder finder;
-    const auto unique = [&](const samples::Rings& rings) {
-        const Polygon polygon = samples::polygon(rings);
-        const PlacedPair placed(wall, {}, polygon, {});
-        const ClosestPair closest = finder.find(placed.a(), placed.b(), infinity, 1e-3);
-        return finder.is_unique(closest, Side::a, 1e-3, 0.5);
-    };
-    EXPECT_TRUE(unique({{{5.0, 2.0}, {6.0, 4.0}, {4.0, 4.0}}}));
-    EXPECT_FALSE(unique({samples::rectangle(2.0, 2.0, 3.0, 4.0)}));
-    EXPECT_TRUE(unique({samples::rectangle(2.0, 2.0, 2.4, 4.0)}));
-    EXPECT_FALSE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0009}, {3.0, 5.0}}}));
-    EXPECT_TRUE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0011}, {3.0, 5.0}}}));
-}
-
-TEST(ClosestPair, UniqueForEitherShape) {
-    // A's tips are close together, the two walls of B are not.
-    const Polygon thin = samples::polygon({{{-0.1, 0.0}, {0.0, -2.0}, {0.1, 0.0}, {0.0, 2.0}}});
-    const Polygon walls = samples::polygon(
-        {samples::rectangle(-3.0, -3.0, -2.0, 3.0), samples::rectangle(2.0, -3.0, 3.0, 3.0)});
-    ClosestPairFinder finder;
-    for (const bool swapped : {false, true}) {
-        const PlacedPair placed(swapped ? walls : thin, {}, swapped ? thin : walls, {});
-        const ClosestPair closest = finder.find(placed.a(), placed.b(), infinity, 1e-3);
-        EXPECT_NEAR(closest.squared_distance, 1.9 * 1.9, 1e-12);
-        EXPECT_FALSE(finder.is_unique(closest, Side::either, 1e-3, 0.5));
-        EXPECT_EQ(finder.is_unique(closest, Side::a, 1e-3, 0.5), !swapped);
-    }
-    // Nearer to one wall.
-    const PlacedPair beside(thin, {{0.01, 0.0}, 0.0}, walls, {});
-    const ClosestPair closest = finder.find(beside.a(), beside.b(), infinity, 1e-3);
-    EXPECT_TRUE(finder.is_unique(closest, Side::either, 1e-3, 0.5));
 }
 
 /// A rectangle whose upper and lower sides are divided into `edges` edges.
@@ -202,33 +124,6 @@ TEST(ClosestPair, UniqueUnlessAnotherIsAsCloseAmongVeryMany) {
     }
     EXPECT_TRUE(unique(tilted, 1e-4));
     EXPECT_FALSE(unique(tilted, 5e-4));
-}
-
-TEST(ClosestPair, IsTheSameOnEveryInstructionSet) {
-    samples::Random random(91);
-    ClosestPairFinder finder;
-    for (int i = 0; i < 60; ++i) {
-        const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 120.0)); };
-        const Polygon a = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
-        const Polygon b = samples::polygon({samples::star(random, size(), 0.1, 0.9)});
-        const PlacedPair pair(a, {}, b,
-                              {{random.between(2.0, 3.0), random.between(-1.5, 1.5)}, 0.4});
-        ClosestPair expected;
-        for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
-            hwy::SetSupportedTargetsForTest(left & ~(left - 1));
-            hwy::GetChosenTarget().DeInit();
-            const ClosestPair found = finder.find(pair.a(), pair.b(), 10.0, 1e-3);
-            hwy::SetSupportedTargetsForTest(0);
-            hwy::GetChosenTarget().DeInit();
-            if (expected.squared_distance == infinity) {
-                expected = found;
-            }
-            EXPECT_EQ(found.edge_a, expected.edge_a);
-            EXPECT_EQ(found.edge_b, expected.edge_b);
-            EXPECT_EQ(found.squared_distance, expected.squared_distance);
-        }
-        EXPECT_LT(expected.squared_distance, infinity);
-    }
 }
 
 void expect_equal(const ClosestPair& found, const ClosestPair& expected) {

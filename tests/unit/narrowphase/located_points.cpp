@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace nearfield::narrowphase {
@@ -104,31 +103,6 @@ TEST(LocatedPoints, AreWhereBruteForceFindsThem) {
     });
     EXPECT_GT(inside, 500);
     EXPECT_GT(touching, 50);
-}
-
-/// The answers do not depend on which points are located together.
-TEST(LocatedPoints, AreTheSameInParts) {
-    LocatedPoints together;
-    LocatedPoints alone;
-    for_each_crowded_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
-        const Points points = points_about(edges, random);
-        const LocatedPoints::Distances distances{
-            .margin = 1e-3, .touching = 1e-9, .reach = std::numeric_limits<double>::infinity()};
-        together.find(points.arrays(), edges, distances);
-        for (std::uint32_t i = 0; i < points.count; ++i) {
-            Points one;
-            one.push({points.x[i], points.y[i]});
-            alone.find(one.arrays(), edges, distances);
-            ASSERT_EQ(together.nearest().distance[i], alone.nearest().distance[0]);
-            EXPECT_EQ(together.is_inside(i), alone.is_inside(0)) << "point " << i;
-            EXPECT_EQ(together.is_unique(i), alone.is_unique(0)) << "point " << i;
-        }
-    });
-}
-
-TEST(LocatedPoints, AreManyAtOnce) {
-    EXPECT_EQ(points_at_once(0), 65536U);
-    EXPECT_EQ(points_at_once(100000), 800000U);
 }
 
 }  // namespace

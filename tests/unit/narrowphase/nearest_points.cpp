@@ -1,7 +1,6 @@
 #include <engine/narrowphase/nearest_points.hpp>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <tests/unit/support/awkward_shapes.hpp>
 #include <tests/unit/support/point_samples.hpp>
 
@@ -163,31 +162,6 @@ TEST(NearestPoints, AreUniqueWhereTheBoundarySaysSo) {
     });
     EXPECT_GT(unique, 10000U);
     EXPECT_GT(not_unique, 1000U);
-}
-
-TEST(NearestPoints, AreTheSameOnEveryInstructionSet) {
-    const auto all = [] {
-        std::vector<double> said;
-        NearestPoints nearest;
-        for_each_list([&](const simd::TransformedEdges& edges, const Points& points) {
-            nearest.find(points.arrays(), edges, 1e-3);
-            const simd::NearestArrays& found = nearest.arrays();
-            for (std::uint32_t i = 0; i < points.count; ++i) {
-                said.insert(said.end(),
-                            {found.x[i], found.y[i], found.distance[i], found.parameter[i],
-                             found.second_squared[i], found.third_squared[i], 1.0 * found.edge[i]});
-            }
-        });
-        return said;
-    };
-    const std::vector<double> expected = all();
-    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
-        hwy::SetSupportedTargetsForTest(left & ~(left - 1));
-        hwy::GetChosenTarget().DeInit();
-        EXPECT_EQ(all(), expected) << "target " << (left & ~(left - 1));
-        hwy::SetSupportedTargetsForTest(0);
-        hwy::GetChosenTarget().DeInit();
-    }
 }
 
 }  // namespace

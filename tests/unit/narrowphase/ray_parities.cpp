@@ -3,7 +3,6 @@
 #include <engine/simd/transformed_edges.hpp>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <tests/unit/support/awkward_shapes.hpp>
 
 #include <cmath>
@@ -143,36 +142,6 @@ TEST(RayParities, OfPlacesOnEdgesAreThoseOfOneRay) {
         }
     });
     EXPECT_GT(late, 10000);
-}
-
-TEST(RayParities, AreTheSameOnEveryInstructionSet) {
-    std::vector<bool> before;
-    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
-        hwy::SetSupportedTargetsForTest(left & ~(left - 1));
-        hwy::GetChosenTarget().DeInit();
-        std::vector<bool> all;
-        RayParities parities;
-        for_each_awkward_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
-            const simd::AabbTree tree = edges.tree();
-            parities.begin(tree);
-            std::vector<RayParities::Ticket> tickets;
-            for (int i = 0; i < 500; ++i) {
-                // On the boundary, where either is right.
-                const Vector place = edges.at(random.below(edges.count), 0.125 * random.below(8));
-                tickets.push_back(parities.ask(place.x(), place.y()));
-            }
-            parities.answer();
-            for (const RayParities::Ticket ticket : tickets) {
-                all.push_back(parities.is_odd(ticket));
-            }
-        });
-        if (!before.empty()) {
-            EXPECT_EQ(all, before) << "target " << (left & ~(left - 1));
-        }
-        before = all;
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
 }
 
 }  // namespace

@@ -72,59 +72,6 @@ void for_each_grid_shape(const Check& check) {
     }
 }
 
-TEST(CrossingKernels, CountFromAnyPointAsOneByOne) {
-    int odd = 0;
-    int all = 0;
-    for_each_grid_shape([&](const TransformedEdges& edges, samples::Random& random) {
-        for (int i = 0; i < 400; ++i) {
-            const Vector point(0.5 * random.below(110), 0.5 * random.below(110));
-            for (const int along : {0, 1}) {
-                const bool expected =
-                    are_odd_one_by_one(edges, point, along, [](std::uint32_t) { return true; });
-                VisitsLeft unlimited;
-                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(),
-                                                     {point.x(), point.y(), along == 1}, unlimited),
-                          expected)
-                    << point.transpose() << ", along " << along;
-                odd += expected ? 1 : 0;
-                ++all;
-            }
-        }
-    });
-    EXPECT_GT(odd, all / 10);
-}
-
-TEST(CrossingKernels, CountFromManyPointsAsOneByOne) {
-    DivisionMemory memory;
-    int odd = 0;
-    int all = 0;
-    for_each_grid_shape([&](const TransformedEdges& edges, samples::Random& random) {
-        for (const std::uint32_t count : {1U, 8U, 9U, 300U}) {
-            std::vector<double> x(count);
-            std::vector<double> y(count);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                x[i] = 0.5 * random.below(110);
-                y[i] = 0.5 * random.below(110);
-            }
-            for (const int along : {0, 1}) {
-                std::vector<std::uint8_t> found(count);
-                kernels::find_odd_crossings(
-                    edges, {count, x.data(), y.data(), nullptr, nullptr, 0.0, along == 1}, memory,
-                    found.data());
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    const Vector point(x[i], y[i]);
-                    const bool expected =
-                        are_odd_one_by_one(edges, point, along, [](std::uint32_t) { return true; });
-                    EXPECT_EQ(found[i] != 0, expected) << point.transpose() << ", along " << along;
-                    odd += expected ? 1 : 0;
-                    ++all;
-                }
-            }
-        }
-    });
-    EXPECT_GT(odd, all / 10);
-}
-
 /// The axis that is more perpendicular to a direction than parallel.
 int across(const Vector& direction) {
     return std::abs(direction.y()) >= std::abs(direction.x()) ? 0 : 1;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/unit/solvers/test_workspace.hpp>
-#include <tests/unit/support/shape_samples.hpp>
+#include <tests/unit/support/awkward_shapes.hpp>
 
 #include <cmath>
 #include <vector>
@@ -79,17 +79,25 @@ TEST(UniqueDeepest, WithoutRecordsOnlyATipBetweenTwoWallsHasSeveralWaysOut) {
 
 TEST(UniqueDeepest, WithoutRecordsItIsThatOfTheRecords) {
     samples::Random random(611);
+    const std::vector<samples::NamedRings> awkward = samples::awkward_shapes(random);
     std::uint32_t unique = 0;
     std::uint32_t several = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (std::uint32_t i = 0; i < 2000; ++i) {
         SCOPED_TRACE("case " + std::to_string(i));
         const bool walls = i % 2 == 0;
+        const auto any_b = [&]() -> samples::Rings {
+            if (walls) {
+                return {bar(1.0, 1 + random.below(300))};
+            }
+            // A tree of boxes does not tell which edge of these is near.
+            return i % 100 == 1
+                       ? awkward[i / 100 % awkward.size()].rings
+                       : samples::Rings{samples::star(random, 3 + random.below(300), 0.4, 1.0)};
+        };
         const Polygon a =
             walls ? tip()
                   : samples::polygon({samples::star(random, 3 + random.below(60), 0.1, 0.8)});
-        const Polygon b =
-            walls ? samples::polygon({bar(1.0, 1 + random.below(300))})
-                  : samples::polygon({samples::star(random, 3 + random.below(300), 0.4, 1.0)});
+        const Polygon b = samples::polygon(any_b());
         const Pose pose =
             walls ? Pose{{random.between(-1e-3, 1e-3) * d, random.between(-1.0, 1.0)}, 0.0}
                   : Pose{{random.between(-0.5, 0.5), random.between(-0.5, 0.5)}, 0.4};

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 namespace nearfield::toi {
@@ -78,49 +77,6 @@ TEST(SafeStep, OfATranslationLeavesAnEighthOfTheDistance) {
     // Whatever goes away never touches.
     pair.end_b = {{12.0, 0.0}, 0.0};
     EXPECT_EQ(after_one_step(pair).kind, Impact::Kind::none);
-}
-
-/// A bar that swings round a point far away first goes straight past a tip, to which only the
-/// acceleration of the bar's ends brings it. `bar_is_a`: which of the two swings.
-Moving swinging_bar(bool bar_is_a, double turn) {
-    const Polygon bar = samples::polygon({samples::rectangle(-0.01, 9.99, 0.01, 10.01)});
-    // Where the bar is after an angle of 0.3, less the bar.
-    const Polygon tip =
-        samples::polygon({{{-10.0 * std::sin(0.3) - 0.05, 10.0 * std::cos(0.3) - 0.05},
-                           {-10.0 * std::sin(0.3) + 0.05, 10.0 * std::cos(0.3) - 0.05},
-                           {-10.0 * std::sin(0.3), 10.0 * std::cos(0.3) + 0.05}}});
-    const Pose end{{0.0, 0.0}, turn};
-    return bar_is_a ? Moving{bar, tip, {}, end, {}, {}} : Moving{tip, bar, {}, {}, {}, end};
-}
-
-TEST(SafeStep, SeesAnEdgeThatSwingsOntoATip) {
-    for (const bool bar_is_a : {true, false}) {
-        for (const double turn : {0.4, 1.0, 3.0, 6.0}) {
-            const Moving pair = swinging_bar(bar_is_a, turn);
-            const Motion a = pair.of_a();
-            const Motion b = pair.of_b();
-            ConservativeAdvancement finder;
-            const Impact impact = finder.find(a, b, {1e-6, 1.0, 1000, 0.0});
-            ASSERT_EQ(impact.kind, Impact::Kind::found) << "turn " << turn;
-            EXPECT_NEAR(impact.time * turn, 0.3, 0.01);
-        }
-    }
-}
-
-TEST(SafeStep, SeesAWallBeyondAFloorThatNeverComesCloser) {
-    // It slides along the floor, close to it, and hits the wall half way.
-    const Polygon corner = samples::polygon(
-        {{{-10.0, -1.0}, {10.0, -1.0}, {10.0, 4.0}, {5.0, 4.0}, {5.0, 0.0}, {-10.0, 0.0}}});
-    for (const double gap : {1e-1, 1e-2, 1e-4}) {
-        const Moving pair{square(1.0), corner, {{0.0, 1.0 + gap}, 0.0}, {{8.0, 1.0 + gap}, 0.0},
-                          {},          {}};
-        const Motion a = pair.of_a();
-        const Motion b = pair.of_b();
-        ConservativeAdvancement finder;
-        const Impact impact = finder.find(a, b, {1e-6, 1.0, 1000, 0.0});
-        ASSERT_EQ(impact.kind, Impact::Kind::found) << gap;
-        EXPECT_NEAR(impact.time, 0.5, 1e-6);
-    }
 }
 
 TEST(SafeStep, OfMorePairsThanAreTestedStopsShortOfTheOthers) {

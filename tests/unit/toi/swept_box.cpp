@@ -4,9 +4,6 @@
 #include <gtest/gtest.h>
 #include <tests/unit/support/shape_samples.hpp>
 
-#include <cmath>
-#include <numbers>
-
 namespace nearfield::toi {
 namespace {
 
@@ -47,14 +44,6 @@ TEST(SweptBox, IsTightForAStraightMotion) {
     EXPECT_NEAR(box.min().y(), 0.0, 1e-12);
     EXPECT_NEAR(box.max().x(), 12.0, 1e-12);
     EXPECT_NEAR(box.max().y(), 6.0, 1e-12);
-}
-
-TEST(SweptBox, HoldsTheCircleOfATurn) {
-    // About its corner, the far one at a distance of the square root of 5.
-    const Polygon polygon = samples::polygon({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}});
-    const Box box = swept_box({polygon, {{3, 4}}, {{3, 4}, std::numbers::pi}});
-    EXPECT_LE(box.min().x(), 3.0 - std::sqrt(5.0));
-    EXPECT_GE(box.max().y(), 4.0 + std::sqrt(5.0));
 }
 
 }  // namespace
