@@ -3,7 +3,6 @@
 #include <tools/benchmark/workloads.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -115,78 +114,6 @@ TEST(PaperScenes, LookTheSameFromAfarAtEveryScale) {
             EXPECT_EQ(coarse.instances[i].pose.translation, fine.instances[i].pose.translation);
         }
     }
-}
-
-TEST(Questions, OnlySeparationsReachBeyondTheBoxes) {
-    const tools::Scene separations = asked(crowd_scene(), separation(0.01), Pairs::all);
-    EXPECT_DOUBLE_EQ(separations.queries.back().reach, 20.0 * 0.01);
-    EXPECT_EQ(asked(crowd_scene(), contacts(0.01), Pairs::all).queries.back().reach, 0.0);
-}
-
-TEST(Crowds, AreStarsOfFiftyVertices) {
-    const tools::Scene crowd = crowd_scene();
-    EXPECT_EQ(crowd.instances.size(), 1000U);
-    EXPECT_EQ(vertex_count(crowd), 50000U);
-    const tools::Scene pairs = small_pairs_scene(1000);
-    EXPECT_EQ(pairs.instances.size(), 2000U);
-    EXPECT_EQ(vertex_count(pairs), 100000U);
-    for (const tools::Scene* scene : {&crowd, &pairs}) {
-        for (const tools::SceneShape& shape : scene->shapes) {
-            EXPECT_EQ(crossings(shape.rings.front()), 0U) << shape.name;
-            EXPECT_FALSE(is_convex(shape.rings.front())) << shape.name;
-        }
-    }
-}
-
-TEST(Coasts, HaveAsManyVerticesAsAskedAndDoNotCrossThemselves) {
-    for (const std::size_t n : {8U, 200U, 20000U}) {
-        const Ring ring = coast(1, n);
-        EXPECT_EQ(ring.size(), n);
-        EXPECT_EQ(crossings(ring), 0U) << n;
-    }
-    EXPECT_FALSE(is_convex(coast(1, 200)));
-}
-
-TEST(CoastLines, AreTheRealOnes) {
-    ASSERT_EQ(iceland().size(), 1U);
-    ASSERT_EQ(ireland().size(), 1U);
-    EXPECT_EQ(iceland().front().size(), 3056U);
-    EXPECT_EQ(ireland().front().size(), 2250U);
-    EXPECT_EQ(crossings(iceland().front()), 0U);
-    EXPECT_EQ(crossings(ireland().front()), 0U);
-}
-
-TEST(CoastLines, GapIsWhereTheFirstVertexMeetsTheOther) {
-    const std::vector<Ring> square{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}};
-    const std::vector<Ring> wedge{{{3.0, 0.5}, {5.0, 0.0}, {5.0, 1.0}}};
-    EXPECT_DOUBLE_EQ(gap_along_x(square, wedge), 2.0);
-    const std::vector<Ring> high{{{3.0, 2.5}, {5.0, 2.0}, {5.0, 3.0}}};
-    EXPECT_EQ(gap_along_x(square, high), INFINITY);
-    // A vertex of the left one against an edge of the right one.
-    const std::vector<Ring> left{{{0.0, 0.0}, {1.0, 0.5}, {0.0, 1.0}}};
-    const std::vector<Ring> right{{{4.0, -1.0}, {4.0, 2.0}, {6.0, 0.5}}};
-    EXPECT_DOUBLE_EQ(gap_along_x(left, right), 3.0);
-}
-
-TEST(CoastLines, StandAsFarApartAsTold) {
-    const auto place = [](double overlap) {
-        return coast_lines_scene(overlap).instances[1].pose.translation.x;
-    };
-    const Ring ring = iceland().front();
-    const auto [low, high] = std::minmax_element(
-        ring.begin(), ring.end(), [](const Vector2& a, const Vector2& b) { return a.x < b.x; });
-    const double width = high->x - low->x;
-    EXPECT_NEAR(place(-0.1) - place(0.0), 0.1 * width, 1e-9);
-    EXPECT_NEAR(place(0.0) - place(0.01), 0.01 * width, 1e-9);
-    // Touching: no distance left.
-    const tools::Scene touching = coast_lines_scene(0.0);
-    std::vector<Ring> moved = touching.shapes[1].rings;
-    for (Ring& other : moved) {
-        for (Vector2& vertex : other) {
-            vertex.x += touching.instances[1].pose.translation.x;
-        }
-    }
-    EXPECT_NEAR(gap_along_x(touching.shapes[0].rings, moved), 0.0, 1e-9);
 }
 
 TEST(StandardTable, HasRowsOfDifferentNamesWithQueriesInEach) {

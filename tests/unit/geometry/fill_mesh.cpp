@@ -4,7 +4,6 @@
 #include <tests/support/degenerate_polygons.hpp>
 #include <tests/support/scanline.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -122,40 +121,6 @@ TEST(FillMesh, StaysNearTheTileAndOnTheGrid) {
             }
         }
     }
-}
-
-TEST(FillMesh, AnEdgeAndItsReverseGiveTheSameTriangles) {
-    const Tile& tile = fill_tiles[0];
-    const FillMesh fill_mesh(tile.width, tile.height, tile.grid);
-    for (std::uint32_t seed = 1; seed <= 100; ++seed) {
-        for (const auto& polygon : support::huge_polygons(tile.width, tile.height, seed)) {
-            const Vector& a = polygon.rings.front()[0];
-            const Vector& b = polygon.rings.front()[1];
-            Mesh forth;
-            Mesh back;
-            fill_mesh.append(a, b, forth);
-            fill_mesh.append(b, a, back);
-            ASSERT_TRUE(std::equal(forth.begin(), forth.end(), back.begin(), back.end(),
-                                   [](const auto& one, const auto& other) {
-                                       return one.x == other.x && one.y == other.y;
-                                   }))
-                << polygon.name;
-        }
-    }
-}
-
-TEST(FillMesh, AppendsNothingForEdgesThatCrossNoSample) {
-    const FillMesh fill_mesh(8, 8, SubpixelGrid{});
-    Mesh mesh;
-    fill_mesh.append({1.0, 2.6}, {5.0, 3.4}, mesh);     // between two row centres
-    fill_mesh.append({1.0, 2.5}, {5.0, 2.5}, mesh);     // along one
-    fill_mesh.append({0.4, -5.0}, {-3.0, 20.0}, mesh);  // left of all samples
-    fill_mesh.append({1.0, 8.0}, {5.0, 1e6}, mesh);     // above
-    fill_mesh.append({1.0, -1e6}, {5.0, 0.4}, mesh);    // below
-    fill_mesh.append({3.0, 3.0}, {3.0, 3.0}, mesh);     // no length
-    EXPECT_TRUE(mesh.empty());
-    fill_mesh.append({1.0, 2.4}, {5.0, 2.6}, mesh);
-    EXPECT_EQ(mesh.size(), 6U);
 }
 
 }  // namespace

@@ -145,28 +145,6 @@ TEST(Chains, NothingWantedIsLeftOut) {
     }
 }
 
-TEST(Chains, ContainmentEitherWay) {
-    samples::Random random(2);
-    const Polygon large = samples::polygon({samples::star(random, 200, 2.0, 3.0)});
-    const Polygon small = samples::polygon({samples::coast(random, 300, 0.5)});
-    const Polygon holed = samples::polygon(
-        {samples::star(random, 200, 2.0, 3.0), samples::star(random, 100, 1.2, 1.5)});
-    const TransformedPolygon outer(large, {});
-    const TransformedPolygon inner(small, {});
-    const TransformedPolygon around(holed, {});
-    for (std::uint32_t height = 0; height <= 12; ++height) {
-        std::vector<Chain> chains;
-        chains_in_volume(inner, outer, {height, 0.0}, chains);
-        ASSERT_EQ(chains.size(), 1U) << "the whole of the inner one, at height " << height;
-        EXPECT_EQ(chains[0].count, small.size());
-        chains.clear();
-        chains_near_boundary(inner, outer, {12, 0.0}, chains);
-        chains_in_volume(inner, around, {12, 0.0}, chains);
-        chains_in_volume(outer, inner, {12, 0.0}, chains);
-        EXPECT_TRUE(chains.empty()) << "at height " << height;
-    }
-}
-
 void expect_same(const std::vector<Chain>& found, const std::vector<Chain>& wanted,
                  const std::string& what) {
     ASSERT_EQ(found.size(), wanted.size()) << what;
@@ -259,36 +237,6 @@ TEST(Chains, FullHeightComparesSingleEdges) {
     }
 }
 
-TEST(Chains, HeightZeroComparesRings) {
-    samples::Rings rings;
-    for (int i = 0; i < 9; ++i) {
-        rings.push_back(samples::rectangle(i, 0.0, i + 0.5, 0.5));
-    }
-    const Polygon row = samples::polygon(rings);
-    const Polygon one = samples::polygon({samples::rectangle(4.2, 0.2, 4.3, 0.9)});
-    std::vector<Chain> chains;
-    const Effort effort = chains_near_boundary(TransformedPolygon(row, {}),
-                                               TransformedPolygon(one, {}), {0, 0.0}, chains);
-    ASSERT_EQ(chains.size(), 1U);
-    EXPECT_EQ(chains[0].ring, 4U);
-    EXPECT_EQ(chains[0].count, 4U);
-    EXPECT_LE(effort.nodes_evaluated, 10U);
-}
-
-TEST(Chains, FarApartCostsTheTopLevelBoxes) {
-    samples::Random random(4);
-    const Polygon polygon = samples::polygon({samples::coast(random, 3000, 1.0)});
-    const TransformedPolygon a(polygon, {});
-    const TransformedPolygon b(polygon, {{9.0, 1.0}, 1.0});
-    for (const ChainFinder find : {chains_in_volume, chains_near_boundary}) {
-        std::vector<Chain> chains;
-        const Effort effort = find(a, b, {12, 0.1}, chains);
-        EXPECT_TRUE(chains.empty());
-        EXPECT_EQ(effort.nodes_evaluated, 2U);
-        EXPECT_EQ(effort.pairs_rejected, 1U);
-    }
-}
-
 TEST(Chains, ASmallContactOpensFewNodes) {
     // Two smooth rings that overlap a little: complete trees would have 8191 nodes each.
     samples::Random random(5);
@@ -366,19 +314,6 @@ TEST(Chains, EntangledBoundariesStayLawfulAndAffordable) {
     }
 }
 
-TEST(Chains, AppendToWhatIsThere) {
-    const Polygon polygon = samples::polygon({samples::rectangle(0.0, 0.0, 1.0, 1.0)});
-    const TransformedPolygon a(polygon, {});
-    for (const ChainFinder find : {chains_in_volume, chains_near_boundary}) {
-        // The previous entry belongs to another call, although it looks like a neighbour.
-        std::vector<Chain> chains{{0, 0, 0, Box()}};
-        find(a, a, {0, 0.0}, chains);
-        ASSERT_EQ(chains.size(), 2U);
-        EXPECT_EQ(chains[0].count, 0U);
-        EXPECT_EQ(chains[1].count, 4U);
-    }
-}
-
 TEST(JoinBoxes, ResultIsDisjointAndCovers) {
     samples::Random random(6);
     for (int round = 0; round < 60; ++round) {
@@ -407,26 +342,6 @@ TEST(JoinBoxes, ResultIsDisjointAndCovers) {
         join_boxes(again);
         EXPECT_EQ(again.size(), joined.size()) << "round " << round;
     }
-}
-
-TEST(JoinBoxes, JoinsWhatIsNearAndLeavesWhatIsFar) {
-    const auto box = [](double x0, double y0, double x1, double y1) {
-        return Box(Vector(x0, y0), Vector(x1, y1));
-    };
-    std::vector<Box> side_by_side{box(0.0, 0.0, 1.0, 1.0), box(1.05, 0.0, 2.0, 1.0)};
-    join_boxes(side_by_side);
-    EXPECT_EQ(side_by_side.size(), 1U);
-    std::vector<Box> far{box(0.0, 0.0, 1.0, 1.0), box(5.0, 5.0, 6.0, 6.0)};
-    join_boxes(far);
-    EXPECT_EQ(far.size(), 2U);
-    // Merging the first and the last gives a box that reaches the one in between.
-    std::vector<Box> chain{box(0.0, 0.0, 1.0, 3.0), box(1.5, 2.5, 1.6, 2.6),
-                           box(0.5, 0.0, 2.0, 1.0)};
-    join_boxes(chain);
-    EXPECT_EQ(chain.size(), 1U);
-    std::vector<Box> none;
-    join_boxes(none);
-    EXPECT_TRUE(none.empty());
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <tests/unit/support/shape_samples.hpp>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -94,31 +93,6 @@ TEST(SegmentsIntersect, AllSegmentsOfASmallLattice) {
         EXPECT_GT(together, 1000);
         EXPECT_GT(apart, 1000);
     }
-}
-
-TEST(SegmentsIntersect, RandomSegmentsMeetWhereTheirDistanceIsZero) {
-    samples::Random random(2);
-    int together = 0;
-    for (int round = 0; round < 20000; ++round) {
-        std::array<Vector, 4> p;
-        for (Vector& v : p) {
-            v = Vector(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
-        }
-        // Solved for the parameters of both segments.
-        const Vector u = p[1] - p[0];
-        const Vector w = p[3] - p[2];
-        const double determinant = cross(u, w);
-        const double s = cross(p[2] - p[0], w) / determinant;
-        const double t = cross(p[2] - p[0], u) / determinant;
-        const bool expected = s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0;
-        together += expected ? 1 : 0;
-        const bool close_call =
-            std::min({std::abs(s), std::abs(s - 1.0), std::abs(t), std::abs(t - 1.0)}) < 1e-9;
-        if (!close_call) {
-            EXPECT_EQ(segments_intersect(p[0], p[1], p[2], p[3]), expected) << round;
-        }
-    }
-    EXPECT_GT(together, 2000);
 }
 
 TEST(SegmentsMeet, WhereTheirDistanceIsWithinTheMargin) {

@@ -213,36 +213,5 @@ TEST(Simplify, MergesEdgesOfNoLength) {
     }
 }
 
-TEST(Simplify, LeavesLongEdgesAlone) {
-    // A long bar with fine ends: the bar's two long edges must be preserved.
-    Ring ring;
-    for (int i = 0; i < 20; ++i) {
-        ring.push_back({0.0, 0.001 * i});
-    }
-    for (int i = 19; i >= 0; --i) {
-        ring.push_back({10.0, 0.001 * i});
-    }
-    std::vector<SimplifiedEdge> edges;
-    simplify(samples::polygon({ring}), 0.5, 1.0, edges);
-    ASSERT_EQ(edges.size(), 4U);
-    EXPECT_EQ(edges[1].count, 1U);
-    EXPECT_EQ(edges[1].first, 19U);
-    EXPECT_EQ(edges[3].count, 1U);
-    EXPECT_EQ(edges[3].first, 39U);
-}
-
-TEST(Simplify, AppendsRingAfterRing) {
-    samples::Random random(4);
-    const samples::Rings rings{samples::star(random, 30, 0.9, 1.0),
-                               samples::star(random, 20, 0.4, 0.5)};
-    std::vector<SimplifiedEdge> edges(3);
-    simplify(samples::polygon(rings), 0.0, 0.0, edges);
-    ASSERT_EQ(edges.size(), 53U);
-    EXPECT_EQ(edges[3].first, 0U);
-    EXPECT_EQ(edges[32].last, 0U);
-    EXPECT_EQ(edges[33].first, 30U);
-    EXPECT_EQ(edges[52].last, 30U);
-}
-
 }  // namespace
 }  // namespace nearfield::geometry

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -49,35 +48,6 @@ double area(const ResolvedFill& fill) {
     return 0.5 * twice;
 }
 
-std::size_t vertex_count(const ResolvedFill& fill) {
-    std::size_t count = 0;
-    for (const Ring& ring : fill.rings) {
-        count += ring.size();
-    }
-    return count;
-}
-
-TEST(Fill, EveryRuleOfTwoOverlappingSquares) {
-    const std::vector<Ring> rings{square(0, 0, 4), square(2, 2, 4)};
-    EXPECT_EQ(area(resolved(rings, FillRule::odd_even)), 24.0);
-    EXPECT_EQ(area(resolved(rings, FillRule::nonzero)), 28.0);
-    EXPECT_EQ(area(resolved(rings, FillRule::positive)), 28.0);
-    const ResolvedFill merged = resolved(rings, FillRule::union_of_parts);
-    EXPECT_EQ(area(merged), 28.0);
-    ASSERT_EQ(merged.rings.size(), 1U);
-    EXPECT_EQ(merged.rings[0].size(), 8U);
-    EXPECT_NE(std::find(merged.rings[0].begin(), merged.rings[0].end(), Vector2{4, 2}),
-              merged.rings[0].end());
-}
-
-TEST(Fill, OrientationMattersToWindingNumbersAlone) {
-    const std::vector<Ring> rings{square(0, 0, 4), reversed(square(2, 2, 4))};
-    EXPECT_EQ(area(resolved(rings, FillRule::odd_even)), 24.0);
-    EXPECT_EQ(area(resolved(rings, FillRule::nonzero)), 24.0);
-    EXPECT_EQ(area(resolved(rings, FillRule::positive)), 12.0);
-    EXPECT_EQ(area(resolved(rings, FillRule::union_of_parts)), 28.0);
-}
-
 TEST(Fill, RegionMayBeEmpty) {
     const ResolvedFill negative = resolved({reversed(square(0, 0, 1))}, FillRule::positive);
     EXPECT_TRUE(negative.rings.empty());
@@ -85,60 +55,6 @@ TEST(Fill, RegionMayBeEmpty) {
     EXPECT_TRUE(twice.rings.empty());
     const ResolvedFill line = resolved({{{0, 0}, {1, 1}, {3, 3}}, {{1, 0}}}, FillRule::nonzero);
     EXPECT_TRUE(line.rings.empty());
-}
-
-TEST(Fill, InnerEdgesAreGone) {
-    std::vector<Ring> rings;
-    for (int x = 0; x < 10; ++x) {
-        for (int y = 0; y < 10; ++y) {
-            rings.push_back(square(x, y, 1));
-        }
-    }
-    for (const FillRule rule : {FillRule::nonzero, FillRule::union_of_parts, FillRule::odd_even}) {
-        const ResolvedFill fill = resolved(rings, rule);
-        ASSERT_EQ(fill.rings.size(), 1U);
-        EXPECT_EQ(fill.rings[0].size(), 4U);
-        EXPECT_EQ(area(fill), 100.0);
-    }
-}
-
-TEST(Fill, TurnsOfASpiralAddUp) {
-    // Twice around the origin; the inner part has winding number 2.
-    Ring spiral;
-    for (int i = 0; i < 40; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / 20.0;
-        const double radius = i < 20 ? 3.0 : 5.0;
-        spiral.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-    EXPECT_EQ(resolved({spiral}, FillRule::nonzero).rings.size(), 1U);
-    EXPECT_GT(area(resolved({spiral}, FillRule::nonzero)),
-              area(resolved({spiral}, FillRule::odd_even)) + 20.0);
-}
-
-TEST(Fill, PartsKeepTheirHoles) {
-    // A frame, a frame that covers its hole partly, and one square.
-    const std::vector<Ring> rings{square(0, 0, 10), square(2, 2, 6), square(3, 3, 9),
-                                  square(5, 5, 2), square(20, 20, 1)};
-    const std::vector<std::uint32_t> sizes{2, 2, 1};
-    FillSettings settings;
-    settings.part_sizes = sizes;
-    // The first frame (64), the second (77), less both: its part in [3, 10]^2 less both holes.
-    const double both = 49.0 - 25.0;  // [3, 10]^2 less [3, 8]^2, which contains the smaller hole
-    EXPECT_EQ(area(resolved(rings, FillRule::union_of_parts, settings)), 64 + 77 - both + 1);
-    // Every ring a part: the holes are filled.
-    EXPECT_EQ(area(resolved(rings, FillRule::union_of_parts)), 100 + 81 - 49 + 1);
-}
-
-TEST(Fill, RingsTouchAtVerticesAlone) {
-    // Two triangles that touch at a point, and a hole that touches the outer boundary.
-    const ResolvedFill fill =
-        resolved({{{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}, {2, 2}}}, FillRule::nonzero);
-    EXPECT_EQ(area(fill), 8.0);
-    EXPECT_EQ(fill.rings.size(), 2U);
-    const ResolvedFill holed =
-        resolved({square(0, 0, 4), {{2, 0}, {1, 2}, {3, 2}}}, FillRule::nonzero);
-    EXPECT_EQ(area(holed), 14.0);
-    EXPECT_EQ(vertex_count(holed), 8U) << "a vertex stays where the hole touches";
 }
 
 TEST(Fill, GapsNarrowerThanTheDeviationClose) {

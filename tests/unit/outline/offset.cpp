@@ -132,24 +132,6 @@ TEST(Offset, EveryPointIsOnTheSideOfItsDistance) {
     EXPECT_GT(decided, 50'000U);
 }
 
-TEST(Offset, CornersAreRoundAndHolesClose) {
-    const std::vector<Ring> frame{{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
-                                  {{1, 1}, {1, 3}, {3, 3}, {3, 1}}};
-    const ResolvedFill grown = offset_of(frame, 0.5, 1e-3);
-    EXPECT_EQ(grown.rings.size(), 2U);
-    EXPECT_TRUE(is_inside(grown.rings, {-0.35, -0.35}));
-    EXPECT_FALSE(is_inside(grown.rings, {-0.36, -0.36}));
-    EXPECT_EQ(offset_of(frame, 1.01, 1e-3).rings.size(), 1U);
-    // Shrunk, the hole grows with round corners; then nothing is left.
-    const ResolvedFill shrunk = offset_of(frame, -0.25, 1e-3);
-    EXPECT_TRUE(is_inside(shrunk.rings, {0.81, 0.81}));
-    EXPECT_FALSE(is_inside(shrunk.rings, {0.83, 0.83}));
-    // Between the corners of frame and hole the depth is largest, 2 - sqrt 2.
-    EXPECT_EQ(offset_of(frame, -0.58, 1e-3).rings.size(), 4U);
-    EXPECT_TRUE(offset_of(frame, -0.59, 1e-3).rings.empty());
-    EXPECT_EQ(offset_of(frame, 0.0, 1e-3).rings.size(), 2U);
-}
-
 TEST(Offset, ArcsGetAsManyEdgesAsTheDeviationNeeds) {
     const std::vector<Ring> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     // A full circle of radius 1 within half of the deviation: pi / acos(1 - deviation / 2) edges.
