@@ -5,11 +5,10 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
-#include <tests/unit/support/tile_cases.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,24 +20,47 @@ namespace {
 using geometry::Polygon;
 using geometry::TransformedPolygon;
 using geometry::Vector;
-using test::cases;
-using test::height;
-using test::width;
+
+constexpr std::uint32_t width = 40;
+constexpr std::uint32_t height = 24;
+
+/// A shape over, around or beside a tile of 40 x 24 cells of side 1 with its low corner at the
+/// origin.
+struct TileCase {
+    std::string name;
+    Polygon polygon;
+    Pose pose;
+    SimplifiedShapes shapes;
+    std::optional<TileBoundary> placed;
+
+    TileCase(const test::NamedRings& shape, std::uint64_t seed, double deviation) {
+        test::Random random(seed);
+        const double size = random.scale(3.0, 3e5);
+        name = shape.name + ", seed " + std::to_string(seed);
+        EXPECT_TRUE(polygon.assign(test::scaled_and_moved(shape.rings, size, {})).ok()) << name;
+        pose = {{random.between(-0.7, 0.7) * size + 0.5 * width,
+                 random.between(-0.7, 0.7) * size + 0.5 * height},
+                random.between(0.0, 7.0)};
+        placed.emplace(shapes.get(polygon, deviation, 64.0),
+                       ToCells(TransformedPolygon(polygon, pose), Vector::Zero(), 1.0));
+    }
+
+    [[nodiscard]] const TileBoundary& boundary() const { return *placed; }
+};
+
+std::vector<std::unique_ptr<TileCase>> cases(double deviation) {
+    std::vector<std::unique_ptr<TileCase>> all;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        for (const test::NamedRings& shape : test::every_family(seed)) {
+            all.push_back(std::make_unique<TileCase>(shape, 1000 * seed + all.size(), deviation));
+        }
+    }
+    return all;
+}
 
 bool crosses(const Vector& p, const Vector& a, const Vector& b) {
     return (a.y() > p.y()) != (b.y() > p.y()) &&
            p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-}
-
-TEST(TileBoundary, RingsClose) {
-    for (const auto& c : cases(0.3)) {
-        const SimplifiedBoundary& simplified = c->boundary().simplified();
-        for (std::uint32_t i = 0; i < simplified.size(); ++i) {
-            ASSERT_EQ(simplified.edges[simplified.previous(i)].last, simplified.edges[i].first)
-                << c->name;
-            ASSERT_EQ(simplified.ring_of[simplified.previous(i)], simplified.ring_of[i]) << c->name;
-        }
-    }
 }
 
 /// The distance from a point to an edge, computed from the edge only.
@@ -93,65 +115,6 @@ TEST(TileBoundary, LooksOnlyAtWhatIsNear) {
     std::vector<TileEdge> crossing;
     crossing_edges(boundary, width, height, 0.3, crossing);
     EXPECT_LE(crossing.size(), 2U) << "the right half of the circle";
-}
-
-/// The heights between `low` and `high` that upright edges cross an odd number of times, given by
-/// the positions where the parity changes: ends that occur twice cancel.
-std::vector<double> odd_ends(const std::vector<TileEdge>& edges, double low, double high) {
-    std::map<double, int> ends;
-    for (const TileEdge& edge : edges) {
-        for (const Vector& end : {edge.a, edge.b}) {
-            ++ends[std::clamp(end.y(), low, high)];
-        }
-    }
-    std::vector<double> odd;
-    for (const auto& [y, count] : ends) {
-        if (count % 2 == 1) {
-            odd.push_back(y);
-        }
-    }
-    return odd;
-}
-
-TEST(CrossingEdges, AreThoseOfAPlainScan) {
-    const double slack = 0.3;
-    const double right = width + 1.0 + slack;
-    const double low = -1.0 - slack;
-    const double high = height + 1.0 + slack;
-    for (const auto& c : cases(0.3)) {
-        const TileBoundary& boundary = c->boundary();
-        std::vector<TileEdge> crossing;
-        crossing_edges(boundary, width, height, slack, crossing);
-        std::vector<std::uint32_t> wanted;
-        std::vector<TileEdge> beyond;  // with upright edges, as without joining
-        for (std::uint32_t e = 0; e < boundary.size(); ++e) {
-            const Vector a = boundary.start(e);
-            const Vector b = boundary.end(e);
-            if (std::min(a.x(), b.x()) > right) {
-                beyond.push_back({{right, a.y()}, {right, b.y()}, no_simplified});
-            } else if (std::max(a.y(), b.y()) >= low && std::min(a.y(), b.y()) <= high &&
-                       std::max(a.x(), b.x()) >= -1.0 - slack) {
-                wanted.push_back(e);
-                if (std::max(a.x(), b.x()) > right && boundary.edge(e).count == 1) {
-                    const double cut = a.y() + (right - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
-                    const double end = a.x() <= right ? b.y() : a.y();
-                    beyond.push_back({{right, cut}, {right, end}, no_simplified});
-                }
-            }
-        }
-        std::vector<std::uint32_t> found;
-        std::vector<TileEdge> upright;
-        for (const TileEdge& edge : crossing) {
-            if (edge.simplified == no_simplified) {
-                upright.push_back(edge);
-            } else {
-                found.push_back(edge.simplified);
-            }
-        }
-        ASSERT_EQ(found, wanted) << c->name;
-        ASSERT_EQ(odd_ends(upright, low, high), odd_ends(beyond, low, high)) << c->name;
-        ASSERT_LE(upright.size(), beyond.size()) << c->name;
-    }
 }
 
 TEST(CrossingEdges, GiveTheParityOfTheWholeBoundary) {

@@ -59,49 +59,5 @@ TEST(AtlasPacker, TilesOfATileBatchNeverOverlapAndStayInTheImage) {
     }
 }
 
-TEST(AtlasPacker, ManySmallTilesOfOneSizeWasteLittle) {
-    const std::vector<TileSize> tiles(1000, {32, 32});
-    AtlasPacker packer;
-    packer.begin(2048);
-    pack(packer, tiles);
-    EXPECT_EQ(packer.tile_batches(), 1U);
-    const std::uint32_t side = 32 + atlas_gap;
-    EXPECT_LE(packer.extent().width * packer.extent().height, 1000U * side * side * 5U / 4U);
-}
-
-TEST(AtlasPacker, FourTilesOfHalfTheLargestSideFitOneImage) {
-    const std::vector<TileSize> tiles(4, {1024, 1024});
-    AtlasPacker packer;
-    packer.begin(2048);
-    pack(packer, tiles);
-    EXPECT_EQ(packer.tile_batches(), 1U);
-}
-
-TEST(AtlasPacker, NoTilesNeedNoTileBatch) {
-    AtlasPacker packer;
-    packer.begin(64);
-    pack(packer, {});
-    EXPECT_EQ(packer.tile_batches(), 0U);
-}
-
-TEST(AtlasPacker, WhatIsPackedLaterLiesInLaterTileBatches) {
-    AtlasPacker packer;
-    packer.begin(64);
-    const std::vector<AtlasPlace> first = pack(packer, {{40, 50}, {40, 50}});
-    pack(packer, {});
-    const std::vector<AtlasPlace> second = pack(packer, {{60, 20}, {8, 8}});
-    EXPECT_EQ(first[0].tile_batch, 0U);
-    EXPECT_EQ(first[1].tile_batch, 1U);
-    EXPECT_EQ(second[0].tile_batch, 2U);
-    EXPECT_EQ(second[1].tile_batch, 2U);
-    EXPECT_EQ(packer.tile_batches(), 3U);
-    EXPECT_GE(packer.extent().width, 60U);
-    EXPECT_GE(packer.extent().height, 50U);
-    packer.begin(64);
-    pack(packer, {{8, 8}});
-    EXPECT_EQ(packer.tile_batches(), 1U);
-    EXPECT_EQ(packer.extent().height, 8U);
-}
-
 }  // namespace
 }  // namespace nearfield::raster

@@ -6,15 +6,12 @@
 #include <tests/support/planned_queries.hpp>
 #include <tests/support/polygons.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace nearfield::device_input {
 namespace {
 
 using geometry::Polygon;
-using geometry::Vector;
 
 class PlannerTest : public testing::Test {
 protected:
@@ -57,84 +54,6 @@ protected:
     Plan plan_;
     std::vector<AnyResult> results_;
 };
-
-TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
-    limits_.points_tile = 100;
-    run({penetration_});
-    ASSERT_GT(plan_.tiles.size(), 3U);
-    ASSERT_GT(plan_.points.size(), 500U);
-    const geometry::TransformedPolygon a(a_, penetration_.a.pose);
-    for (const PlannedPoint& point : plan_.points) {
-        const PlannedTile& tile = plan_.tiles[point.tile];
-        const Vector local = (position(a, point.point) - tile.origin()) / tile.grid.cell;
-        ASSERT_GE(local.minCoeff(), -1e-9);
-        ASSERT_LE(local.x(), tile.width + 1e-9);
-        ASSERT_LE(local.y(), tile.height + 1e-9);
-        ASSERT_LE(std::max(tile.width, tile.height), limits_.points_tile);
-        const auto side = tile.needed.side();
-        const auto block = [side](double value, std::uint32_t count) {
-            return static_cast<std::uint32_t>(std::clamp(value, 0.0, count - 1.0)) / side;
-        };
-        ASSERT_TRUE(
-            tile.needed.any(block(local.x(), tile.width), block(local.y(), tile.height), 1));
-    }
-}
-
-TEST_F(PlannerTest, AFieldsTilesCoverItsGridOnce) {
-    limits_.largest_tile = 64;
-    DistanceFieldQuery field;
-    field.technique = Technique::raster;
-    field.b = penetration_.b;
-    field.tolerance = 0.05;
-    field.rectangle = Rectangle{{-3.0, 1.0}, {12.5, 9.0}};
-    run({field});
-    const auto& result = std::get<DistanceFieldResult>(results_[0]);
-    EXPECT_EQ(result.width, static_cast<std::uint32_t>(std::ceil(15.5 / (0.05 * std::sqrt(2.0)))));
-    EXPECT_EQ(result.height, static_cast<std::uint32_t>(std::ceil(8.0 / (0.05 * std::sqrt(2.0)))));
-    std::vector<int> covered(std::size_t{result.width} * result.height, 0);
-    for (const PlannedTile& tile : plan_.tiles) {
-        for (std::uint64_t row = tile.row; row < tile.row + tile.height; ++row) {
-            for (std::uint64_t column = tile.column; column < tile.column + tile.width; ++column) {
-                ++covered[row * result.width + column];
-            }
-        }
-    }
-    EXPECT_EQ(covered, std::vector<int>(covered.size(), 1));
-}
-
-TEST_F(PlannerTest, WhatDoesNotFitIsRefusedWithAToleranceThatDoes) {
-    IntersectionQuery query;
-    query.technique = Technique::raster;
-    query.a = penetration_.a;
-    query.b = penetration_.b;
-    query.tolerance = 1e-5;
-    try {
-        run({query});
-        FAIL() << "an intersection of 10^11 cells was planned";
-    } catch (const StatusException& failure) {
-        EXPECT_EQ(failure.status().code(), StatusCode::too_large);
-        const std::string& message = failure.status().message();
-        const std::string lead = "the smallest tolerance that fits is about ";
-        const auto at = message.find(lead);
-        ASSERT_NE(at, std::string::npos) << message;
-        query.tolerance = std::stod(message.substr(at + lead.size()));
-        EXPECT_GT(query.tolerance, 1e-5);
-    }
-    EXPECT_NO_THROW(run({query})) << "the tolerance that the message names";
-}
-
-TEST_F(PlannerTest, MemoryIsCountedOverTheWholeBatch) {
-    IntersectionQuery query;
-    query.technique = Technique::raster;
-    query.a = penetration_.a;
-    query.b = penetration_.b;
-    query.tolerance = 0.01;
-    run({query});
-    const double one = plan_.result_bytes;
-    ASSERT_GT(one, 0.0);
-    const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / one) + 1;
-    EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), StatusException);
-}
 
 TEST_F(PlannerTest, LimitsAreToldInUnitsInWhichTheyAreNotZero) {
     IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 1e-5};
@@ -203,23 +122,6 @@ TEST_F(PlannerTest, BoundariesMeetWhereBothAreGrownByTheBound) {
     EXPECT_EQ(tiles_at(2.01 * bound), 0U);
 }
 
-TEST_F(PlannerTest, TheDeviceSearchesForContactsAsFarAsTheyReach) {
-    ContactQuery query;
-    query.a = penetration_.a;
-    query.b = {{1, 0}, {}};
-    query.tolerance = 0.01;
-    query.contact_distance = 0.5;
-    query.technique = Technique::compute;
-    const auto searched_at = [&](double gap) {
-        query.b.pose.translation = {10.0 + gap, 0.0};
-        run({query});
-        return plan_.pairs.directions.size();
-    };
-    EXPECT_EQ(searched_at(-1.0), 2U) << "points of either boundary";
-    EXPECT_EQ(searched_at(0.49), 2U);
-    EXPECT_EQ(searched_at(0.51), 0U);
-}
-
 TEST_F(PlannerTest, PointsThatTheDeviceSearchesCountOnceTheyAreFound) {
     penetration_.technique = Technique::compute;
     penetration_.b.pose = {{1.0, 1.0}, 0.0};
@@ -228,13 +130,6 @@ TEST_F(PlannerTest, PointsThatTheDeviceSearchesCountOnceTheyAreFound) {
     EXPECT_EQ(plan_.pairs.directions.size(), many);
     EXPECT_TRUE(plan_.tiles.empty());
     EXPECT_EQ(plan_.result_bytes, 0.0);
-}
-
-TEST_F(PlannerTest, ShapesFarApartPlanNothing) {
-    penetration_.b.pose.translation = {1000.0, 0.0};
-    run({penetration_});
-    EXPECT_TRUE(plan_.tiles.empty());
-    EXPECT_TRUE(std::get<PenetrationResult>(results_[0]).regions.empty());
 }
 
 }  // namespace

@@ -7,8 +7,6 @@
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <list>
 #include <span>
 #include <vector>
@@ -120,54 +118,6 @@ TEST_F(RasterTileMeshes, ReachNoOtherTile) {
                     }
                 }
             }
-        }
-    }
-}
-
-TEST_F(RasterTileMeshes, CarryTheRectangleOfTheirTile) {
-    std::size_t seen = 0;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        SCOPED_TRACE(seed);
-        for (const DrawnBatch& batch : tile_batches(seed, 256.0)) {
-            for (const std::vector<TileVertex>& mesh : batch.meshes.tile_meshes()) {
-                for (std::size_t i = 0; i < mesh.size(); i += 3) {
-                    const auto is_its = [&](const shaders::TileData& tile) {
-                        return std::all_of(&mesh[i], &mesh[i] + 3, [&](const TileVertex& vertex) {
-                            return vertex.x == tile.atlas_x && vertex.y == tile.atlas_y &&
-                                   vertex.width == tile.width && vertex.height == tile.height;
-                        });
-                    };
-                    ASSERT_EQ(std::count_if(batch.tiles.begin(), batch.tiles.end(), is_its), 1);
-                    for (std::size_t j = i; j < i + 3; ++j) {
-                        const float depth = mesh[j].vertex.distance;
-                        ASSERT_TRUE(depth >= 0.0F && depth <= 1.0F) << depth;
-                    }
-                    ++seen;
-                }
-            }
-        }
-    }
-    EXPECT_GT(seen, 10000U);
-}
-
-TEST_F(RasterTileMeshes, FollowEachOtherInTheOrderOfTheirRanges) {
-    for (const DrawnBatch& batch : tile_batches(1, 256.0)) {
-        std::uint32_t end = 0;
-        for (std::size_t i = 0; i < tile_batch_meshes; ++i) {
-            const DrawRange range = batch.meshes.range(MeshId{i});
-            EXPECT_EQ(range.first, end);
-            EXPECT_EQ(range.count, batch.meshes.meshes()[i].size());
-            end += range.count;
-        }
-        const DrawRange all = batch.meshes.range(MeshId{0}, MeshId{tile_batch_meshes - 1});
-        EXPECT_EQ(all.first, 0U);
-        EXPECT_EQ(all.count, end);
-        end = 0;
-        for (std::size_t i = 0; i < tile_batch_tile_meshes; ++i) {
-            const DrawRange range = batch.meshes.range(static_cast<TileMeshId>(i));
-            EXPECT_EQ(range.first, end);
-            EXPECT_EQ(range.count, batch.meshes.tile_meshes()[i].size());
-            end += range.count;
         }
     }
 }

@@ -39,87 +39,6 @@ std::string refusal(const Searched& world, PairParts& parts, const PairLimits& l
     return {};
 }
 
-TEST(PairParts, OneHasAllInstancesIfItFits) {
-    const Searched world = even_world(1000, 40);
-    PairParts parts(penetrations.kind(), penetrations.on_device);
-    EXPECT_EQ(world.search(parts, no_limits), 3) << "of pairs, of the rest, and with room for all";
-    ASSERT_EQ(parts.count(), 1U);
-    EXPECT_EQ(parts[0].needed, world.counts(0, 1000));
-    EXPECT_EQ(world.search(parts, no_limits), 1);
-}
-
-TEST(PairParts, AreAsManyAsTheReachOfShadersAsksFor) {
-    const Searched world = even_world(1000, 40);
-    const std::uint64_t all = world.bytes(world.counts(0, 1000)).largest();
-    PairParts parts(penetrations.kind(), penetrations.on_device);
-    world.search(parts, {all / 3, everything});
-    EXPECT_GE(parts.count(), 4U);
-    EXPECT_LE(parts.count(), 6U);
-    EXPECT_EQ(world.search(parts, {all / 3, everything}), 1);
-}
-
-TEST(PairParts, AreAsManyAsTheMemoryAsksFor) {
-    const Searched world = even_world(1000, 40);
-    const PairBytes all = world.bytes(world.counts(0, 1000));
-    const std::uint64_t memory = all.found() + all.scratch / 2;
-    PairParts parts(penetrations.kind(), penetrations.on_device);
-    world.search(parts, {everything, memory});
-    EXPECT_GE(parts.count(), 2U);
-    EXPECT_LE(parts.count(), 4U);
-    EXPECT_EQ(world.search(parts, {everything, memory}), 1);
-}
-
-/// The first division takes all instances for average ones.
-TEST(PairParts, ThatAreUnevenAreDividedAgain) {
-    Searched world = even_world(1000, 1);
-    for (std::uint32_t i = 700; i < 710; ++i) {
-        world.instances()[i] = counts_of(3000);
-    }
-    const std::uint64_t reach = world.bytes(world.counts(0, 1000)).largest() / 4;
-    PairParts parts(penetrations.kind(), penetrations.on_device);
-    world.search(parts, {reach, everything});
-    std::size_t with_many = 0;
-    for (std::size_t i = 0; i < parts.count(); ++i) {
-        with_many += parts[i].end > 700 && parts[i].first < 710 ? 1U : 0U;
-    }
-    EXPECT_GE(with_many, 4U);
-    EXPECT_LE(parts.count() - with_many, 8U) << "others are not divided as often";
-}
-
-TEST(PairParts, AreJoinedIfTwiceAsMuchFits) {
-    const Searched crowd = even_world(400, 100);
-    const PairLimits limits{crowd.bytes(crowd.counts(0, 400)).largest() / 3, everything};
-    PairParts parts(penetrations.kind(), penetrations.on_device);
-    crowd.search(parts, limits);
-    ASSERT_GE(parts.count(), 4U);
-    EXPECT_FALSE(parts.join(limits)) << "it has just been divided";
-    const Searched sparse = even_world(400, 10);
-    sparse.search(parts, limits);
-    for (std::size_t count = parts.count(); count > 1; --count) {
-        ASSERT_TRUE(parts.join(limits));
-        EXPECT_EQ(sparse.search(parts, limits), 1) << "there is room for what was counted";
-        ASSERT_EQ(parts.count(), count - 1);
-    }
-    EXPECT_FALSE(parts.join(limits)) << "there is one";
-    EXPECT_EQ(parts[0].needed, sparse.counts(0, 400));
-}
-
-TEST(PairParts, AreJoinedWhereTheLeastIsNeeded) {
-    Searched world = even_world(900, 100);
-    const PairLimits limits{world.bytes(world.counts(0, 900)).largest() / 2, everything};
-    PairParts parts(penetrations.kind(), penetrations.on_device);
-    world.search(parts, limits);
-    ASSERT_GE(parts.count(), 3U);
-    const std::vector<std::uint32_t> ends{parts[0].end, parts[1].end, parts[2].end};
-    for (std::uint32_t i = ends[0]; i < ends[2]; ++i) {
-        world.instances()[i] = counts_of(2);
-    }
-    world.search(parts, limits);
-    ASSERT_TRUE(parts.join(limits));
-    EXPECT_EQ(parts[0].end, ends[0]);
-    EXPECT_EQ(parts[1].end, ends[2]);
-}
-
 /// Or they would be joined and divided in turns.
 TEST(PairParts, ThatStayOnTheDeviceAreNotJoinedWithoutMemoryForThat) {
     PairQuestion question = penetrations;
@@ -166,31 +85,6 @@ TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
     EXPECT_EQ(one.search(of_one, {exactly, everything}), 1);
     EXPECT_EQ(of_one[0].capacities, one.counts(0, 1));
     EXPECT_NE(refusal(one, of_one, {exactly - 1, everything}), "");
-}
-
-TEST(PairParts, FollowTheNumberOfInstances) {
-    const Searched world = even_world(1000, 40);
-    const PairLimits limits{world.bytes(world.counts(0, 1000)).largest() / 4, everything};
-    PairParts parts(penetrations.kind(), penetrations.on_device);
-    EXPECT_TRUE(parts.set_instances(1000));
-    EXPECT_FALSE(parts.set_instances(1000));
-    world.search(parts, limits);
-    const std::size_t count = parts.count();
-    ASSERT_GE(count, 4U);
-    const std::uint32_t second = parts[1].first;
-
-    EXPECT_TRUE(parts.set_instances(2000)) << "the last part has those that were added";
-    ASSERT_EQ(parts.count(), count);
-    EXPECT_EQ(parts[count - 1].end, 2000U);
-    EXPECT_TRUE(parts.set_instances(second + 1)) << "parts without instances end";
-    ASSERT_EQ(parts.count(), 2U);
-    EXPECT_EQ(parts[1].end, second + 1);
-    EXPECT_TRUE(parts.set_instances(second));
-    ASSERT_EQ(parts.count(), 1U);
-    EXPECT_TRUE(parts.set_instances(0));
-    EXPECT_EQ(parts.count(), 1U);
-    EXPECT_TRUE(parts.set_instances(3));
-    even_world(3, 10).expect_all(parts, limits);
 }
 
 /// What was counted of many says nothing about a few of them.
