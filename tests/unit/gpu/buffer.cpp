@@ -1,4 +1,3 @@
-#include <engine/base/status_exception.hpp>
 #include <engine/gpu/buffer.hpp>
 
 #include <gtest/gtest.h>
@@ -52,11 +51,6 @@ void expect_round_trip(const gpu::Device& device, std::uint32_t seed) {
             ASSERT_EQ(results[i], 2 * values[i] + 1) << "element " << i << " of " << used;
         }
     }
-}
-
-TEST_F(GpuBuffer, RoundTripThroughAShader) {
-    const gpu::Device device(host_.device());
-    expect_round_trip(device, 1);
 }
 
 TEST_F(GpuBuffer, GrowsGeometricallyAndKeepsWhatSuffices) {
@@ -125,43 +119,6 @@ TEST_F(GpuBuffer, FlushesAndInvalidatesOnlyWhatIsNotCoherent) {
         EXPECT_EQ(flushes, coherent ? 0U : 2U);
         EXPECT_EQ(invalidations, coherent ? 0U : 2U);
     }
-}
-
-std::uint32_t refusals_left = 0;
-
-VkResult VKAPI_CALL refusing_allocate(VkDevice device, const VkMemoryAllocateInfo* info,
-                                      const VkAllocationCallbacks* callbacks,
-                                      VkDeviceMemory* memory) {
-    if (refusals_left > 0) {
-        --refusals_left;
-        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    }
-    return reinterpret_cast<PFN_vkAllocateMemory>(
-        test_support::true_device_function("vkAllocateMemory"))(device, info, callbacks, memory);
-}
-
-/// tests/driver tests the fallback to another memory type, on a driver with several.
-TEST_F(GpuBuffer, IsEmptyWhereThereIsNoMemoryOfAnyType) {
-    Lies lies;
-    lies.entry_points["vkAllocateMemory"] =
-        reinterpret_cast<PFN_vkVoidFunction>(&refusing_allocate);
-    const FakeLoader fake(host_.device(), lies);
-    const gpu::Device device(fake.host());
-    MappedBuffer buffer(device, storage, Direction::upload, "edges");
-    EXPECT_TRUE(buffer.reserve(10));
-    refusals_left = 1000;
-    try {
-        buffer.reserve(1'000'000);
-        FAIL() << "no Failure";
-    } catch (const StatusException& failure) {
-        EXPECT_EQ(failure.status().code(), StatusCode::out_of_memory);
-        EXPECT_NE(failure.status().message().find("'edges'"), std::string::npos);
-    }
-    EXPECT_EQ(buffer.capacity(), 0U);
-    EXPECT_EQ(buffer.data(), nullptr);
-    refusals_left = 0;
-    EXPECT_TRUE(buffer.reserve(1'000'000));
-    EXPECT_NE(buffer.data(), nullptr);
 }
 
 }  // namespace

@@ -52,33 +52,5 @@ TEST_F(GpuDevice, MemoryTypeHasWhatIsRequiredAndMostOfWhatIsPreferred) {
     EXPECT_THROW((void)device.memory_type(0, 0, 0), StatusException);
 }
 
-TEST(GpuCheck, SaysCallResultAndObject) {
-    struct Case {
-        VkResult result;
-        StatusCode code;
-        const char* name;
-    };
-    for (const Case& error :
-         {Case{VK_ERROR_DEVICE_LOST, StatusCode::device_lost, "VK_ERROR_DEVICE_LOST"},
-          Case{VK_ERROR_OUT_OF_HOST_MEMORY, StatusCode::out_of_memory,
-               "VK_ERROR_OUT_OF_HOST_MEMORY"},
-          Case{VK_ERROR_OUT_OF_DEVICE_MEMORY, StatusCode::out_of_memory,
-               "VK_ERROR_OUT_OF_DEVICE_MEMORY"},
-          Case{VK_ERROR_INITIALIZATION_FAILED, StatusCode::device_error,
-               "VK_ERROR_INITIALIZATION_FAILED"}}) {
-        SCOPED_TRACE(error.name);
-        try {
-            gpu::check(error.result, "vkCreateImage", "image 'sign'");
-            FAIL() << "no Failure";
-        } catch (const StatusException& failure) {
-            EXPECT_EQ(failure.status().code(), error.code);
-            EXPECT_EQ(failure.status().message(),
-                      std::string("vkCreateImage failed with ") + error.name + " for image 'sign'");
-        }
-    }
-    EXPECT_NO_THROW(gpu::check(VK_SUCCESS, "vkCreateImage", "image 'sign'"));
-    EXPECT_NO_THROW(gpu::check(VK_INCOMPLETE, "vkCreateImage", "image 'sign'"));
-}
-
 }  // namespace
 }  // namespace nearfield
