@@ -66,34 +66,6 @@ TEST_F(ClosestPoints, SeparationOfSquaresByACorner) {
     EXPECT_FALSE(json.at("regions").empty());
 }
 
-TEST_F(ClosestPoints, SeparationOfParallelSides) {
-    const Json json =
-        answer(squares("separation") + Arguments{"-d", "0.1", "--pose-b", "1.25,0.5,0"});
-    ASSERT_TRUE(json.is_object());
-    EXPECT_EQ(json.at("distance").get<double>(), 0.25);
-    EXPECT_EQ(json.at("unique"), false);
-    EXPECT_EQ(json.at("point_a").at(1), json.at("point_b").at(1));
-}
-
-TEST_F(ClosestPoints, ShapesThatIntersectAreNoDistanceApart) {
-    for (const char* pose : {"0.5,0.5,0", "1,0,0", "0,0,0"}) {
-        const Json json = answer(squares("separation") + Arguments{"-d", "0.1", "--pose-b", pose});
-        ASSERT_TRUE(json.is_object());
-        EXPECT_EQ(json.at("intersects"), true);
-        EXPECT_EQ(json.at("distance").get<double>(), 0.0);
-        EXPECT_TRUE(json.at("direction").is_null());
-        EXPECT_EQ(json.at("point_a"), json.at("point_b"));
-    }
-    const std::string large = folder_.write("large.wkt", "POLYGON ((-1 -2, 5 -2, 5 6, -1 6))");
-    for (const Arguments& pair : {Arguments{a_, large}, Arguments{large, a_}}) {
-        const Json json = answer(Arguments{"query", "closest-point"} + pair + Arguments{"-d", "1"});
-        ASSERT_TRUE(json.is_object());
-        EXPECT_EQ(json.at("intersects"), true);
-        EXPECT_EQ(json.at("distance").get<double>(), 0.0);
-        EXPECT_EQ(json.at("point"), json.at("nearest"));
-    }
-}
-
 TEST_F(ClosestPoints, ClosestPointIsThatOfA) {
     const Json json =
         answer(squares("closest-point") + Arguments{"-d", "0.1", "--pose-b", "4,5,0"});

@@ -1,6 +1,5 @@
 #include "cli_test.hpp"
 
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -57,30 +56,6 @@ TEST_F(NestingRecord, OneCommandAnswersContainmentAndOverlapOfAllItems) {
     EXPECT_NEAR(clearances.at("washer-3"), 10.0, 0.002);
     EXPECT_NEAR(clearances.at("plate-3"), 100.0, 0.002);
     EXPECT_NEAR(clearances.at("gusset-2"), 160.0, 1e-9);
-}
-
-TEST_F(NestingRecord, DistancesAndDepthsAreThoseOfTheSheet) {
-    const Json json = answer({"scene", record_, "--units", "mm", "--query", "separation", "--query",
-                              "separation-vector", "-d", "0.01"});
-    ASSERT_TRUE(json.is_object());
-    std::map<Pair, double> distances;
-    std::map<Pair, double> depths;
-    for (const Json& result : json.at("results")) {
-        const Pair pair{result.at("a"), result.at("b")};
-        if (result.at("query") == "separation") {
-            distances[pair] = result.at("distance");
-        } else if (result.at("intersects") == true) {
-            depths[pair] = result.at("length");
-        }
-    }
-    EXPECT_EQ(distances.size(), 16U * 15U / 2U);
-    // Interlocked, corner to corner; hypotenuse to hypotenuse; in the hole, off its centre and in
-    // it.
-    EXPECT_NEAR(distances.at({"bracket-1", "bracket-2"}), 5.0 * std::sqrt(2.0), 1e-9);
-    EXPECT_NEAR(distances.at({"gusset-1", "gusset-2"}), 14.0, 1e-9);
-    EXPECT_NEAR(distances.at({"gasket-1", "washer-1"}), 8.0, 0.002);
-    EXPECT_NEAR(distances.at({"gasket-2", "washer-2"}), 10.0, 0.002);
-    EXPECT_NEAR(depths.at({"bracket-4", "plate-2"}), 2.0, 0.011);
 }
 
 TEST_F(NestingRecord, SpacingIsCheckedByAnOffset) {

@@ -32,12 +32,6 @@ TEST_F(Offsets, MoveTheBoundariesOfBothWithinTheBound) {
     }
 }
 
-TEST_F(Offsets, CornersAreRound) {
-    EXPECT_NEAR(distance_at(b_, "1.6,1.6", {"--offset", "0.5"}), std::sqrt(0.72) - 0.5, 0.03);
-    EXPECT_NEAR(distance_at(b_, "1.3,0.5", {"--offset", "0.5"}), -0.2, 0.03);
-    EXPECT_NEAR(distance_at(b_, "0.5,0.5", {"--offset", "-0.25"}), -0.25, 0.03);
-}
-
 TEST_F(Offsets, FollowFillRulesAndCurves) {
     const std::string circle = folder_.write("circle.svg", "<svg><circle r='1'/></svg>");
     EXPECT_NEAR(distance_at(circle, "2,0", {"--offset", "0.5"}), 0.5, 0.03);

@@ -107,22 +107,5 @@ TEST_F(Penetration, PosesTurnCounterClockwiseInDegreesBeforeTheyMove) {
     EXPECT_EQ(json.at("records").front().at("feature").at("edge"), 1);
 }
 
-/// Poses of both, of numbers that need all their digits.
-TEST_F(Penetration, IsTheSameWhereBothShapesAreFarAway) {
-    const Json still = ask("0.6,0.3,0");
-    const Json moved = ask("1000000.6,-999999.7,0", {"--pose-a", "1e6,-1e6,0"});
-    ASSERT_TRUE(still.is_object() && moved.is_object());
-    ASSERT_EQ(still.at("count"), moved.at("count"));
-    for (std::size_t index = 0; index < still.at("records").size(); ++index) {
-        const Json& before = still.at("records").at(index);
-        const Json& after = moved.at("records").at(index);
-        EXPECT_NEAR(after.at("point").at(0).get<double>() - 1e6,
-                    before.at("point").at(0).get<double>(), 1e-8);
-        EXPECT_NEAR(after.at("point").at(1).get<double>() + 1e6,
-                    before.at("point").at(1).get<double>(), 1e-8);
-        EXPECT_NEAR(after.at("depth").get<double>(), before.at("depth").get<double>(), 1e-8);
-    }
-}
-
 }  // namespace
 }  // namespace nearfield::test

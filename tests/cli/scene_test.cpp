@@ -81,25 +81,6 @@ TEST_F(SceneCommand, WritesTheTimeOfEachQueryIfAskedTo) {
     EXPECT_FALSE(results.at(1).contains("time_ms"));
 }
 
-TEST_F(SceneCommand, FindsTheSameWithSeveralThreads) {
-    std::string queries;
-    for (const char* tolerance : {"0.01", "0.02", "0.03", "0.04", "0.05"}) {
-        queries +=
-            std::string(queries.empty() ? "" : ", ") +
-            R"({"query": "contacts", "a": "A", "b": "B", "technique": "cpu", "tolerance": )" +
-            tolerance + "}";
-    }
-    const Json alone = answer_of_scene(queries);
-    ASSERT_TRUE(alone.is_object());
-    ASSERT_EQ(alone.at("results").size(), 5U);
-    for (const char* threads : {"1", "3"}) {
-        const Json together = answer({"scene", scene(queries), "--threads", threads});
-        ASSERT_TRUE(together.is_object());
-        EXPECT_EQ(together.at("results"), alone.at("results"));
-    }
-    expect_refused({"scene", scene(queries), "--threads", "0"}, {"--threads"});
-}
-
 TEST_F(SceneCommand, AllPairsAreThoseWhoseBoxesMeet) {
     const Json json = answer_of_scene(
         R"({"query": "penetration", "pairs": "all", "tolerance": 0.05, "records": false},

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -44,18 +43,6 @@ TEST_F(NearestOfShapes, AreClearancesInOrder) {
     ASSERT_EQ(records.at(2).size(), 1U) << records;
     EXPECT_EQ(records.at(2).at(0).at("instance"), "i4");
     EXPECT_EQ(records.at(2).at(0).at("distance"), 1.5);
-}
-
-TEST_F(NearestOfShapes, OneIsTheClearance) {
-    const Json results = results_of(begin + R"("count": 1},
-        {"query": "poses", "shape": "square", "against": "items", "answer": "clearance",
-         "poses": [[2.5, 2, 0], [4.25, 1, 0], [7, 1, 0]]})");
-    const Json& nearest = results.at(0).at("records");
-    const Json& clearances = results.at(1).at("records");
-    ASSERT_EQ(nearest.size(), clearances.size());
-    for (std::size_t i = 0; i < nearest.size(); ++i) {
-        EXPECT_EQ(nearest.at(i), Json::array({clearances.at(i)}));
-    }
 }
 
 TEST_F(NearestOfShapes, GoIntoTables) {

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -173,82 +171,6 @@ TEST_F(WorldQueries, OverlapsOfRectanglesPointsAndShapes) {
     EXPECT_EQ(results.at(2).at("records"), Json::parse(R"([["i3"], ["bin"]])"));
     EXPECT_EQ(results.at(3).at("records"), Json::array());
     EXPECT_EQ(results.at(3).at("count"), 0);
-}
-
-TEST_F(WorldQueries, PosesAgreeWithPairsOfInstances) {
-    // Each pose is also an instance of another scene, whose pairs a batch answers.
-    std::mt19937 numbers(17);
-    std::uniform_real_distribution<double> x(-2.0, 12.0);
-    std::uniform_real_distribution<double> y(-2.0, 6.0);
-    std::uniform_real_distribution<double> degrees(-180.0, 180.0);
-    Json strip = StripScene::strip();
-    Json poses = Json::array();
-    constexpr int count = 60;
-    for (int i = 0; i < count; ++i) {
-        poses.push_back({x(numbers), y(numbers), degrees(numbers)});
-        const std::string name = "try" + std::to_string(100 + i);
-        strip["instances"][name] = {{"shape", "square"}, {"pose", poses.back()}};
-        strip["groups"]["tries"].push_back(name);
-    }
-    strip["groups"]["world"] = {"bin", "i1", "i2", "i3", "i4"};
-    const Json pose_query{
-        {"query", "poses"}, {"shape", "square"}, {"poses", poses}, {"against", "world"}};
-    Json overlap = pose_query;
-    overlap["query"] = "overlap";
-    Json clearance = pose_query;
-    clearance["answer"] = "clearance";
-    const Json pairs{{"between", {"tries", "world"}}};
-    strip["queries"] = {pose_query, overlap, clearance,
-                        Json{{"query", "intersection-test"}, {"pairs", pairs}, {"hits_only", true}},
-                        Json{{"query", "separation"}, {"pairs", pairs}, {"reach", 100}}};
-    const Json results = answer({"scene", folder_.write("both.json", strip.dump())}).at("results");
-    std::vector<std::vector<std::string>> lists(count);
-    std::vector<double> least(count, INFINITY);
-    for (const Json& result : results) {
-        if (!result.contains("a")) {
-            continue;
-        }
-        const auto pose = std::stoul(result.at("a").get<std::string>().substr(3)) - 100;
-        if (result.at("query") == "intersection-test") {
-            lists.at(pose).push_back(result.at("b"));
-        } else {
-            least.at(pose) = std::min(least.at(pose), result.at("distance").get<double>());
-        }
-    }
-    EXPECT_EQ(results.at(1).at("records"), Json(lists));
-    int hits = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        EXPECT_EQ(results.at(0).at("records").at(i), !lists[i].empty()) << i;
-        const Json& found = results.at(2).at("records").at(i);
-        if (lists[i].empty()) {
-            EXPECT_NEAR(found.at("distance").get<double>(), least[i], 1e-12) << i;
-        } else {
-            EXPECT_LE(found.at("distance").get<double>(), 0.0) << i;
-            ++hits;
-        }
-    }
-    EXPECT_GT(hits, 10);
-    EXPECT_LT(hits, 50);
-}
-
-TEST_F(WorldQueries, MoreGroupsThanACategoryHasBits) {
-    Json strip = StripScene::strip();
-    strip["queries"] = Json::array();
-    for (int i = 0; i < 80; ++i) {
-        const std::string name = "far" + std::to_string(100 + i);
-        strip["instances"][name] = {{"shape", "square"}, {"pose", {100 + 2 * i, 0, 0}}};
-        strip["queries"].push_back(
-            {{"query", "nearest"}, {"points", {{0, 0.5}}}, {"count", 5}, {"against", name}});
-    }
-    const Json results = answer({"scene", folder_.write("many.json", strip.dump())}).at("results");
-    ASSERT_EQ(results.size(), 80U);
-    for (std::size_t i = 0; i < 80; ++i) {
-        const Json& records = results.at(i).at("records").at(0);
-        ASSERT_EQ(records.size(), 1U) << i;
-        EXPECT_EQ(records.at(0).at("instance"), "far" + std::to_string(100 + i));
-        EXPECT_NEAR(records.at(0).at("distance").get<double>(),
-                    100.0 + 2.0 * static_cast<double>(i), 1e-9);
-    }
 }
 
 TEST_F(WorldQueries, AnswersDoNotDependOnThreads) {

@@ -226,8 +226,9 @@ TEST(ToolsValues, CountsAreWholeDecimalNumbersInARange) {
     EXPECT_EQ(parse_count("010", "--n", {1, 256}), 10U);
     EXPECT_EQ(parse_count("1e6", "--n", {1, 1'000'000}), 1'000'000U);
     EXPECT_EQ(parse_count("4294967295", "--n", {0, UINT32_MAX}), UINT32_MAX);
-    for (const char* const text : {"", "x", "0x4", "+5", " 5", "5 ", "5x", "1.5", "nan", "inf",
-                                   "-inf", "-x", "1,0", "1e-1"}) {
+    for (const char* const text :
+         {"",   "x",  "0x4", "0X4", "0b1", "+5",  "++5", "--5", " 5",   "\t5", "5 ",   "5x",
+          "5e", "5u", "1.5", "1,0", "1'0", "1_0", "nan", "inf", "-inf", "-x",  "1e-1", "true"}) {
         EXPECT_EQ(input_error([&] {
                       return parse_count(text, "--n", {1, 256});
                   }),
@@ -247,7 +248,8 @@ TEST(ToolsValues, CountsAreWholeDecimalNumbersInARange) {
 
 TEST(ToolsValues, TolerancesAndRectanglesAreChecked) {
     EXPECT_EQ(parse_positive("2.5e-3", "-d"), 2.5e-3);
-    for (const char* const text : {"", "0", "-1", "nan", "inf", "1e999", "1 ", "1,0", "1m"}) {
+    for (const char* const text : {"", "0", "-1", "nan", "inf", "infinity", "1e999", "1e-999",
+                                   "0x1", "1 ", " 1", "++1", "+-1", "1,0", "1e", ".", "1m"}) {
         EXPECT_EQ(input_error([&] { return parse_positive(text, "-d"); }),
                   std::string("-d: \"") + text + "\": expected a finite number greater than 0");
     }
