@@ -7,7 +7,6 @@
 #include <nearfield/vulkan.hpp>
 
 #include <tests/bench/bench.hpp>
-#include <tests/bench/pass_calls.hpp>
 #include <tests/support/fake_loader.hpp>
 #include <tests/support/outlines.hpp>
 #include <tests/support/polygons.hpp>
@@ -286,57 +285,6 @@ void profile(const nearfield::HostDevice& host, const Scene& scene, Technique te
     std::fflush(stdout);
 }
 
-/// All pairs of 1,000 stars of 50 vertices that move, found by the device.
-template <class Query>
-void profile_passes(const nearfield::HostDevice& host, const char* scene, Query query) {
-    Context context = take(Context::create(host, with_timestamps()));
-    nearfield::World world = take(nearfield::World::create(context));
-    nearfield::test::Random random(1000);
-    std::vector<nearfield::InstanceHandle> instances;
-    for (int i = 0; i < 1000; ++i) {
-        const auto shape = take(context.add_shape(nearfield::test::star(random, 50, 0.5)));
-        instances.push_back(take(world.add(
-            {.shape = shape,
-             .pose = {{random.between(0.0, 36.0), random.between(0.0, 36.0)}, 0.1 * i}})));
-    }
-    nearfield::PairTable<Query> table(
-        query, {.hits_only = true, .technique = nearfield::Technique::compute});
-    std::vector<std::vector<double>> times;
-    for (int frame = -warm_up; frame < frames; ++frame) {
-        for (const nearfield::InstanceHandle instance : instances) {
-            nearfield::Pose pose = take(world.instance(instance)).pose;
-            pose.angle += 1e-3;
-            require(world.move(instance, pose));
-        }
-        require(world.update(table));
-        times.resize(table.timings().passes.size());
-        for (std::size_t pass = 0; frame >= 0 && pass < times.size(); ++pass) {
-            times[pass].push_back(table.timings().passes[pass].milliseconds);
-        }
-    }
-    std::vector<nearfield::PassTime> passes = table.timings().passes;
-    for (std::size_t pass = 0; pass < passes.size(); ++pass) {
-        passes[pass].milliseconds = median(times[pass]);
-    }
-    nearfield::bench::print_passes(scene, nearfield::bench::recorded_passes(), passes);
-    std::fflush(stdout);
-}
-
-/// What each pass of the device is told to do: at once, as the pairs of a world are.
-void profile_all_passes(const nearfield::HostDevice& host) {
-    nearfield::test_support::Lies lies;
-    nearfield::bench::count_passes(lies);
-    const nearfield::test_support::FakeLoader loader(host, lies);
-    std::printf("%s", nearfield::bench::head_of_passes);
-    profile_passes(
-        loader.host(), "penetration, samples",
-        nearfield::PenetrationQuery{.tolerance = 0.03, .summary_only = true, .on_device = true});
-    profile_passes(
-        loader.host(), "contacts",
-        nearfield::ContactQuery{.tolerance = 0.03, .contact_distance = 0.05, .summary_only = true});
-    profile_passes(loader.host(), "intersection test", nearfield::IntersectionTestQuery{});
-}
-
 void profile_empty_submission(const nearfield::HostDevice& host) {
     const nearfield::gpu::Device device(host);
     nearfield::gpu::Submission submission(device);
@@ -361,7 +309,6 @@ int main() {
     try {
         const nearfield::gpu::HeadlessDevice device({});
         profile_empty_submission(device.host());
-        profile_all_passes(device.host());
         const nearfield::test_support::FakeLoader loader(device.host(), counting());
         std::printf(
             "\n| scene | technique | frame ms | localize | plan | record | device | decode "
