@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <tests/support/checked_queries.hpp>
+#include <tests/support/planned_queries.hpp>
 #include <tests/support/polygons.hpp>
 
 #include <vector>
