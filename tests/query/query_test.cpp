@@ -3,7 +3,6 @@
 #include <tests/support/vulkan_host.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -73,16 +72,6 @@ Rectangle box_of(const std::vector<IntersectionSample>& samples) {
 Settings on_demand(Settings settings) {
     settings.pipelines_on_demand = true;
     return settings;
-}
-
-int random_cases(int usual) {
-    const char* const asked = std::getenv("NEARFIELD_TEST_CASES");
-    return asked != nullptr ? std::atoi(asked) : usual;
-}
-
-int first_case() {
-    const char* const asked = std::getenv("NEARFIELD_TEST_FIRST");
-    return asked != nullptr ? std::atoi(asked) : 0;
 }
 
 void QueryTest::TearDown() {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
+#include <tests/support/random_cases.hpp>
 #include <tests/support/techniques.hpp>
 
 #include <array>
@@ -22,25 +23,6 @@ inline constexpr std::array every_strategy{
     IntersectionStrategy::stencil, IntersectionStrategy::blend, IntersectionStrategy::logic_op,
     IntersectionStrategy::depth};
 inline constexpr std::array both_ways{PenetrationPoints::boundary, PenetrationPoints::vertices};
-
-/// The number of random cases in a test: `usual`, or the environment variable NEARFIELD_TEST_CASES.
-int random_cases(int usual);
-/// 0, or the environment variable NEARFIELD_TEST_FIRST.
-int first_case();
-
-/// Calls `check(random)` once per case, each with its own random number generator. Failure traces
-/// contain the seed and the case; the environment variable NEARFIELD_TEST_FIRST selects the first
-/// case.
-template <class Check>
-void for_each_case(std::uint64_t seed, int usual, const Check& check) {
-    const int first = first_case();
-    const int cases = random_cases(usual);
-    for (int i = first; i < first + cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + static_cast<std::uint64_t>(i));
-        check(random);
-    }
-}
 
 /// Fails the test for each query that was not answered.
 void expect_answers(const Results& results);
