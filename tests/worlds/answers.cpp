@@ -1,11 +1,11 @@
 #include "answers.hpp"
 
+#include <gtest/gtest.h>
 #include <tests/support/pair_tables.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace nearfield::test {
@@ -39,7 +39,6 @@ Questions any_questions(Random& random, const Rectangle& box, int count) {
     questions.clearances.max_clearance = random.scale(1e-3, 3.0);
     questions.nearest.count = static_cast<std::uint32_t>(random.whole(1, 6));
     questions.edges.count = static_cast<std::uint32_t>(random.whole(1, 9));
-    questions.edges.kind = NearestKind::edges;
     questions.nearest_of_shape.count = static_cast<std::uint32_t>(random.whole(1, 6));
     questions.edges_of_shape.count = questions.edges.count;
     if (random.whole(0, 1) == 0) {
@@ -52,250 +51,305 @@ Questions any_questions(Random& random, const Rectangle& box, int count) {
     return questions;
 }
 
-bool Answers::note(Status status, const char* call) {
-    begin(call);
-    if (!status.ok() && status_.ok()) {
-        status_ = std::move(status);
-    }
-    return status_.ok();
+Questions Questions::about(std::size_t input) const {
+    Questions one = *this;
+    const auto keep = [input](auto& inputs) {
+        inputs = input < inputs.size() ? std::vector{inputs[input]}
+                                       : std::vector<std::decay_t<decltype(inputs[0])>>();
+    };
+    keep(one.poses);
+    keep(one.points);
+    keep(one.segments);
+    keep(one.sweeps);
+    keep(one.rectangles);
+    return one;
 }
 
-void Answers::add(const RayHit& hit) {
-    add(hit.instance);
-    add(hit.parameter);
-    add(hit.error_bound);
-    add(hit.point);
-    add(hit.normal);
-    add(static_cast<double>(hit.edge));
-}
-
-void Answers::add(const InstanceLists& lists) {
-    for (const std::uint32_t offset : lists.offsets) {
-        add(static_cast<double>(offset));
-    }
-    for (const InstanceHandle handle : lists.instances) {
-        add(handle);
-    }
-}
-
-void Answers::add(const Clearance& clearance) {
-    add(clearance.distance);
-    add(clearance.error_bound);
-    add(clearance.instance);
-    add(clearance.point);
-    add(clearance.nearest);
-    add(clearance.direction);
-}
-
-void Answers::ask_clearances(World& world, const ClearanceQuery& query,
-                             const Questions& questions) {
-    std::vector<Clearance> clearances(questions.poses.size());
-    if (!note(world.find_clearances(query, questions.poses, clearances, questions.options),
-              "find_clearances")) {
-        return;
-    }
-    for (const Clearance& clearance : clearances) {
-        add(clearance);
-    }
-}
-
-void Answers::ask_poses(World& world, ShapeHandle shape, const Questions& questions) {
-    std::vector<std::uint8_t> intersects(questions.poses.size());
-    if (!note(world.test_poses(shape, questions.poses, intersects, questions.options),
-              "test_poses")) {
-        return;
-    }
-    for (const std::uint8_t each : intersects) {
-        add(static_cast<double>(each));
-    }
-    ask_clearances(world, {shape}, questions);
-    ClearanceQuery limited = questions.clearances;
-    limited.shape = shape;
-    ask_clearances(world, limited, questions);
-    ShapeNearestQuery several = questions.nearest_of_shape;
-    several.shape = shape;
-    std::vector<Clearance> nearest(questions.poses.size() * several.count);
-    if (note(world.find_nearest(several, questions.poses, nearest, questions.options),
-             "find_nearest of a shape")) {
-        for (const Clearance& clearance : nearest) {
-            add(clearance);
-        }
-    }
-}
-
-void Answers::ask_nearest(World& world, const NearestQuery& query, const Questions& questions) {
-    std::vector<NearestHit> hits(questions.points.size() * query.count);
-    if (!note(world.find_nearest(query, questions.points, hits, questions.options),
-              "find_nearest")) {
-        return;
-    }
-    for (const NearestHit& hit : hits) {
-        add(hit.instance);
-        add(hit.distance);
-        add(hit.error_bound);
-        add(hit.nearest);
-        add(static_cast<double>(hit.feature.kind));
-        add(static_cast<double>(hit.feature.index));
-    }
-}
-
-void Answers::ask_edges(World& world, ShapeHandle shape, const Questions& questions) {
-    ShapeEdgeQuery query = questions.edges_of_shape;
-    query.shape = shape;
-    std::vector<ShapeEdgeHit> hits(questions.poses.size() * query.count);
-    if (!note(world.find_nearest(query, questions.poses, hits, questions.options),
-              "find_nearest, edges of a shape")) {
-        return;
-    }
-    for (const ShapeEdgeHit& hit : hits) {
-        add(hit.instance);
-        add(static_cast<double>(hit.edge));
-        add(hit.distance);
-        add(hit.error_bound);
-        add(hit.point);
-        add(hit.nearest);
-        add(hit.direction);
-    }
-}
-
-void Answers::ask_rays(World& world, const Questions& questions) {
-    std::vector<RayHit> first(questions.segments.size());
-    RayHits all;
-    if (!note(world.cast_rays(questions.segments, first, questions.options), "cast_rays, first") ||
-        !note(world.cast_rays(questions.segments, all, questions.options), "cast_rays, all")) {
-        return;
-    }
-    for (const RayHit& hit : first) {
-        add(hit);
-    }
-    for (const std::uint32_t offset : all.offsets) {
-        add(static_cast<double>(offset));
-    }
-    for (const RayHit& hit : all.hits) {
-        add(hit);
-    }
-}
-
-void Answers::ask_casts(World& world, ShapeHandle shape, const Questions& questions) {
-    std::vector<ShapeCastHit> hits(questions.sweeps.size());
-    const ShapeCastQuery query{shape, questions.tolerance, questions.contact_distance};
-    if (!note(world.cast_shape(query, questions.sweeps, hits, questions.options), "cast_shape")) {
-        return;
-    }
-    for (const ShapeCastHit& hit : hits) {
-        add(static_cast<double>(hit.state));
-        add(hit.instance);
-        add(hit.time);
-        add(hit.time_error_bound);
-        add(hit.error_bound);
-        add(hit.point);
-        add(hit.nearest);
-        add(hit.direction);
-    }
-}
-
-void Answers::ask_impacts(World& world, PairTable<TimeOfImpactQuery>& table,
-                          std::span<const InstanceHandle> moving, std::span<const Pose> ends) {
-    if (!note(world.update(table, {.moving = moving, .ends = ends}), "update of times of impact")) {
-        return;
-    }
-    for (const PairRow<TimeOfImpactQuery>& row : table.rows()) {
-        add(row.a);
-        add(row.b);
-        add(static_cast<double>(row.status));
-        add(static_cast<double>(row.state));
-        add(row.time);
-        add(row.time_error_bound);
-        add(row.error_bound);
-        add(row.min_distance);
-        add(row.point_a);
-        add(row.point_b);
-    }
-}
-
-void Answers::ask_pairs(World& world, std::span<const InstanceHandle> instances) {
-    std::vector<InstanceHandle> a;
-    std::vector<InstanceHandle> b;
+void Questions::list_pairs(const std::vector<InstanceHandle>& instances) {
     for (std::size_t i = 0; i < instances.size(); ++i) {
         for (std::size_t j = i + 1; j < std::min(i + 4, instances.size()); ++j) {
             a.push_back(instances[i]);
             b.push_back(instances[j]);
         }
     }
-    PairTable tests(IntersectionTestQuery{}, of_list);
-    if (note(world.update(tests, {.a = a, .b = b}), "intersection tests of a list")) {
-        for (const PairRow<IntersectionTestQuery>& row : tests.rows()) {
-            add(static_cast<double>(row.status));
-            add(row.intersects ? 1.0 : 0.0);
-            add(row.error_bound);
+}
+
+namespace {
+
+using Input = Question::Input;
+
+/// Of as many answers as `count(questions)` says, for which there is room.
+template <class Answer, class Count, class Call>
+class QuestionWithRoom final : public Question {
+public:
+    QuestionWithRoom(const char* name, Input input, Count count, Call call)
+        : Question(name, input), count_(count), call_(call) {}
+
+    Status ask(World& world, const Questions& about) override {
+        answers_.resize(count_(about) + about.more_room);
+        return call_(world, about, std::span(answers_));
+    }
+    void add_to(Numbers& numbers) override { numbers.add_each(std::span(answers_)); }
+    [[nodiscard]] bool has_room() const override { return true; }
+
+private:
+    Count count_;
+    Call call_;
+    std::vector<Answer> answers_;
+};
+
+/// Of lists that grow as the answers need it.
+template <class Lists, class Call>
+class QuestionForLists final : public Question {
+public:
+    QuestionForLists(const char* name, Input input, Call call)
+        : Question(name, input), call_(call) {}
+
+    Status ask(World& world, const Questions& about) override {
+        return call_(world, about, lists_);
+    }
+    void add_to(Numbers& numbers) override {
+        ASSERT_FALSE(lists_.offsets.empty());
+        EXPECT_EQ(lists_.offsets.front(), 0U);
+        EXPECT_TRUE(std::is_sorted(lists_.offsets.begin(), lists_.offsets.end()));
+        numbers.add(lists_);
+    }
+
+private:
+    Call call_;
+    Lists lists_;
+};
+
+/// Of a table of pairs.
+template <class Query>
+class QuestionAboutPairs final : public Question {
+public:
+    QuestionAboutPairs(const std::string& name, const Query& query, const PairTableOptions& options)
+        : Question("update, " + name, Input::pairs), table_(query, options) {}
+
+    Status ask(World& world, const Questions& about) override {
+        PairTableInput input;
+        if (table_.options().listed) {
+            input = {.a = about.a, .b = about.b};
+        } else if constexpr (std::is_same_v<Query, TimeOfImpactQuery>) {
+            input = {.moving = about.moving, .ends = about.ends};
+        }
+        Status status = world.update(table_, input, about.options.limits);
+        if (!status.ok()) {
+            EXPECT_TRUE(table_.rows().empty());
+            EXPECT_EQ(table_.size(), 0U);
+            EXPECT_EQ(table_.candidates(), 0U);
+        }
+        return status;
+    }
+    void add_to(Numbers& numbers) override {
+        for (const PairRow<Query>& row : table_.rows()) {
+            numbers.add_row(table_, row);
         }
     }
-    PairTable penetrations(
+    [[nodiscard]] std::uint32_t kept() const override {
+        return table_.candidates() - table_.left_to_cpu();
+    }
+
+private:
+    PairTable<Query> table_;
+};
+
+/// Adds to a list of questions.
+struct Adding {
+    QuestionList& list;
+
+    template <class Answer, class Count, class Call>
+    void with_room(const char* name, Input input, Count count, Call call) const {
+        list.push_back(
+            std::make_unique<QuestionWithRoom<Answer, Count, Call>>(name, input, count, call));
+    }
+    template <class Lists, class Call>
+    void for_lists(const char* name, Input input, Call call) const {
+        list.push_back(std::make_unique<QuestionForLists<Lists, Call>>(name, input, call));
+    }
+    template <class Query>
+    void about_pairs(const std::string& name, const Query& query,
+                     const PairTableOptions& options) const {
+        list.push_back(std::make_unique<QuestionAboutPairs<Query>>(name, query, options));
+    }
+};
+
+template <class Query>
+Query with_shape(Query query, const Questions& about) {
+    query.shape = about.shape;
+    return query;
+}
+
+}  // namespace
+
+QuestionList questions_about_inputs() {
+    using Q = const Questions&;
+    QuestionList list;
+    const Adding add{list};
+    const auto of_poses = [](Q q) { return q.poses.size(); };
+    add.with_room<std::uint8_t>("test_poses", Input::poses, of_poses,
+                                [](World& world, Q q, auto answers) {
+                                    return world.test_poses(q.shape, q.poses, answers, q.options);
+                                });
+    add.with_room<Clearance>(
+        "find_clearances", Input::poses, of_poses, [](World& world, Q q, auto answers) {
+            return world.find_clearances({q.shape}, q.poses, answers, q.options);
+        });
+    add.with_room<Clearance>("find_clearances, within limits", Input::poses, of_poses,
+                             [](World& world, Q q, auto answers) {
+                                 return world.find_clearances(with_shape(q.clearances, q), q.poses,
+                                                              answers, q.options);
+                             });
+    add.with_room<Clearance>(
+        "find_nearest, of a shape", Input::poses,
+        [](Q q) { return q.poses.size() * q.nearest_of_shape.count; },
+        [](World& world, Q q, auto answers) {
+            return world.find_nearest(with_shape(q.nearest_of_shape, q), q.poses, answers,
+                                      q.options);
+        });
+    add.with_room<ShapeEdgeHit>(
+        "find_nearest, edges of a shape", Input::poses,
+        [](Q q) { return q.poses.size() * q.edges_of_shape.count; },
+        [](World& world, Q q, auto answers) {
+            return world.find_nearest(with_shape(q.edges_of_shape, q), q.poses, answers, q.options);
+        });
+    add.with_room<NearestHit>(
+        "find_nearest, of points", Input::points,
+        [](Q q) { return q.points.size() * q.nearest.count; },
+        [](World& world, Q q, auto answers) {
+            return world.find_nearest(q.nearest, q.points, answers, q.options);
+        });
+    add.with_room<NearestHit>(
+        "find_nearest, edges of points", Input::points,
+        [](Q q) { return q.points.size() * q.edges.count; },
+        [](World& world, Q q, auto answers) {
+            return world.find_nearest(q.edges, q.points, answers, q.options);
+        });
+    add.with_room<RayHit>(
+        "cast_rays, first hits", Input::segments, [](Q q) { return q.segments.size(); },
+        [](World& world, Q q, auto answers) {
+            return world.cast_rays(q.segments, answers, q.options);
+        });
+    add.for_lists<RayHits>("cast_rays, all hits", Input::segments,
+                           [](World& world, Q q, RayHits& hits) {
+                               return world.cast_rays(q.segments, hits, q.options);
+                           });
+    add.with_room<ShapeCastHit>(
+        "cast_shape", Input::sweeps, [](Q q) { return q.sweeps.size(); },
+        [](World& world, Q q, auto answers) {
+            return world.cast_shape({q.shape, q.tolerance, q.contact_distance}, q.sweeps, answers,
+                                    q.options);
+        });
+    add.for_lists<InstanceLists>("find_overlaps, of rectangles", Input::rectangles,
+                                 [](World& world, Q q, InstanceLists& lists) {
+                                     return world.find_overlaps(q.rectangles, lists, q.options);
+                                 });
+    add.for_lists<InstanceLists>("find_overlaps, of points", Input::points,
+                                 [](World& world, Q q, InstanceLists& lists) {
+                                     return world.find_overlaps(q.points, lists, q.options);
+                                 });
+    add.for_lists<InstanceLists>("find_overlaps, of a shape", Input::poses,
+                                 [](World& world, Q q, InstanceLists& lists) {
+                                     return world.find_overlaps(q.shape, q.poses, lists, q.options);
+                                 });
+    return list;
+}
+
+QuestionList questions_but_about_found_pairs() {
+    QuestionList list = questions_about_inputs();
+    const Adding add{list};
+    add.about_pairs("listed tests", IntersectionTestQuery{}, of_list);
+    add.about_pairs(
+        "listed vertices",
         PenetrationQuery{
             .tolerance = 0.05, .points = PenetrationPoints::vertices, .summary_only = true},
         of_list);
-    if (note(world.update(penetrations, {.a = a, .b = b}), "penetrations of a list")) {
-        for (const PairRow<PenetrationQuery>& row : penetrations.rows()) {
-            add(static_cast<double>(row.status));
-            add(row.intersects ? 1.0 : 0.0);
-            add(static_cast<double>(row.count));
-            add(row.deepest.depth);
-            add(row.deepest.position);
-            add(row.deepest.nearest);
+    add.about_pairs("listed penetrations", PenetrationQuery{.tolerance = 0.05}, of_list);
+    add.about_pairs("listed contacts", ContactQuery{.tolerance = 0.05, .contact_distance = 0.05},
+                    of_list);
+    add.about_pairs("times of impact", TimeOfImpactQuery{.tolerance = 1e-3, .max_steps = 50}, {});
+    add.about_pairs("impacts within a distance",
+                    TimeOfImpactQuery{.tolerance = 1e-3, .max_steps = 50, .contact_distance = 0.1},
+                    {.hits_only = true});
+    return list;
+}
+
+QuestionList questions_about_found_pairs() {
+    QuestionList list;
+    const Adding add{list};
+    for_each_query_of_pairs([&](const std::string& name, const auto& query, double reach) {
+        add.about_pairs(name, query, {.reach = reach});
+        add.about_pairs("hits of " + name, query, {.reach = reach, .hits_only = true});
+    });
+    return list;
+}
+
+Answers::Answers(const Scene& scene)
+    : Answers([&scene](InstanceHandle handle) {
+          const auto position = scene.position(handle);
+          if (position || handle == InstanceHandle()) {
+              return position ? static_cast<double>(*position) : -1.0;
+          }
+          return 1000.0 + handle.index;
+      }) {}
+
+Numbers& Answers::part(const std::string& name) {
+    const auto found = std::find_if(parts_.begin(), parts_.end(),
+                                    [&](const Part& part) { return part.name == name; });
+    return found != parts_.end() ? found->numbers
+                                 : parts_.emplace_back(Part{name, Numbers(name_)}).numbers;
+}
+
+void Answers::ask(const QuestionList& list, World& world, const Questions& about) {
+    for (const std::unique_ptr<Question>& question : list) {
+        Status status = question->ask(world, about);
+        Numbers& numbers = part(question->name());
+        if (status.ok()) {
+            question->add_to(numbers);
+        } else if (status_.ok()) {
+            status_ = std::move(status);
         }
     }
 }
 
-void Answers::ask_overlaps(World& world, ShapeHandle shape, const Questions& questions) {
-    InstanceLists lists;
-    if (note(world.find_overlaps(questions.rectangles, lists, questions.options),
-             "find_overlaps of rectangles")) {
-        add(lists);
+std::size_t Answers::size() const {
+    std::size_t size = 0;
+    for (const Part& part : parts_) {
+        size += part.numbers.list().size();
     }
-    if (note(world.find_overlaps(questions.points, lists, questions.options),
-             "find_overlaps of points")) {
-        add(lists);
-    }
-    if (note(world.find_overlaps(shape, questions.poses, lists, questions.options),
-             "find_overlaps of a shape")) {
-        add(lists);
-    }
-}
-
-void Answers::ask(World& world, ShapeHandle shape, const Questions& questions) {
-    ask_poses(world, shape, questions);
-    ask_nearest(world, questions.nearest, questions);
-    ask_nearest(world, questions.edges, questions);
-    ask_edges(world, shape, questions);
-    ask_rays(world, questions);
-    ask_casts(world, shape, questions);
-    ask_overlaps(world, shape, questions);
+    return size;
 }
 
 std::string Answers::difference_from(const Answers& other) const {
-    const std::size_t size = std::min(numbers_.size(), other.numbers_.size());
-    for (std::size_t i = 0; i <= size; ++i) {
-        const bool is_end = i == size;
-        if (is_end && numbers_.size() == other.numbers_.size()) {
-            return {};
-        }
-        if (!is_end && std::bit_cast<std::uint64_t>(numbers_[i]) ==
-                           std::bit_cast<std::uint64_t>(other.numbers_[i])) {
-            continue;
-        }
-        const auto part = std::find_if(parts_.rbegin(), parts_.rend(),
-                                       [&](const Part& each) { return each.begin <= i; });
+    if (parts_.size() != other.parts_.size()) {
+        return "other questions";
+    }
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        const std::vector<double>& own = parts_[k].numbers.list();
+        const std::vector<double>& theirs = other.parts_[k].numbers.list();
         std::ostringstream text;
         text.precision(17);
-        text << part->name << ", number " << i - part->begin << ": ";
-        if (is_end) {
-            text << numbers_.size() << " numbers and " << other.numbers_.size();
-        } else {
-            text << numbers_[i] << " and " << other.numbers_[i];
+        text << parts_[k].name << ", ";
+        for (std::size_t i = 0; i < std::min(own.size(), theirs.size()); ++i) {
+            if (std::bit_cast<std::uint64_t>(own[i]) != std::bit_cast<std::uint64_t>(theirs[i])) {
+                text << "number " << i << ": " << own[i] << " and " << theirs[i];
+                return text.str();
+            }
         }
-        return text.str();
+        if (own.size() != theirs.size()) {
+            text << own.size() << " numbers and " << theirs.size();
+            return text.str();
+        }
     }
     return {};
+}
+
+Answers answers_of(Scene& scene, const Questions& about) {
+    Answers answers(scene);
+    answers.ask(scene.world(), about);
+    EXPECT_TRUE(answers.status().ok()) << answers.status().text();
+    return answers;
 }
 
 }  // namespace nearfield::test

@@ -20,15 +20,14 @@ int any_size(Random& random) {
 
 }  // namespace
 
-History::History(std::uint64_t seed, const Settings& settings)
-    : random_(seed), on_grid_(random_.whole(0, 3) == 0) {
+History::History(std::uint64_t seed, std::function<QuestionList()> questions,
+                 const Settings& settings)
+    : random_(seed),
+      make_questions_(std::move(questions)),
+      questions_(make_questions_()),
+      on_grid_(random_.whole(0, 3) == 0) {
     context_.emplace(make_context(settings));
     world_.emplace(std::move(*World::create(*context_)));
-    TimeOfImpactQuery impact;
-    impact.tolerance = 1e-3;
-    impact.max_steps = 50;
-    impact.contact_distance = random_.whole(0, 1) == 0 ? 0.0 : 0.1;
-    impacts_.emplace(impact, PairTableOptions{.reach = 0.0, .hits_only = random_.whole(0, 1) == 0});
     asked_ = on_grid_ ? rectangle({0.0, 0.0}, {1.0, 1.0})
                       : scaled_and_moved(star(random_, any_size(random_), 0.4), 0.5, {});
     asked_shape_ = *context_->add_shape(asked_);
@@ -198,36 +197,13 @@ void History::set_end() {
     }
 }
 
-History::Motions History::motions_of(std::span<const Member* const> members,
-                                     std::span<const InstanceHandle> handles) {
-    Motions motions;
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        if (members[i]->end) {
-            motions.moving.push_back(handles[i]);
-            motions.ends.push_back(*members[i]->end);
-        }
-    }
-    return motions;
-}
-
 /// Asks one thing, so that some of what is kept is made and the rest is not.
 void History::glance() {
     log_ += 'q';
-    const Questions questions = any_questions(random_, box, 3);
-    std::vector<std::uint8_t> intersects(questions.poses.size());
-    std::vector<NearestHit> nearest(questions.points.size());
-    std::vector<RayHit> hits(questions.segments.size());
-    switch (random_.whole(0, 2)) {
-        case 0:
-            require(world_->test_poses(asked_shape_, questions.poses, intersects), "test_poses");
-            break;
-        case 1:
-            require(world_->find_nearest({}, questions.points, nearest), "find_nearest");
-            break;
-        default:
-            require(world_->cast_rays(questions.segments, hits), "cast_rays");
-            break;
-    }
+    Questions about = any_questions(random_, box, 3);
+    about.shape = asked_shape_;
+    Question& question = *questions_[any(questions_.size())];
+    require(question.ask(*world_, about), question.name().c_str());
 }
 
 void History::step() {
@@ -283,55 +259,56 @@ void History::check_members() {
 std::string History::compare() {
     log_ += '?';
     check_members();
-    const Questions questions = any_questions(random_, box, 6);
-    // Named by their position among those whose shape is there.
-    std::vector<const Member*> present;
-    std::vector<InstanceHandle> present_handles;
-    for (const Member& member : members_) {
-        if (shapes_[member.shape].is_present) {
-            present.push_back(&member);
-            present_handles.push_back(member.handle);
-        }
-    }
+    Questions of_kept = any_questions(random_, box, 6);
+    Questions of_fresh = of_kept;
     Context context = make_context({});
     World world = std::move(*World::create(context));
-    const ShapeHandle asked = *context.add_shape(asked_);
+    of_kept.shape = asked_shape_;
+    of_fresh.shape = *context.add_shape(asked_);
+    // Of those whose shape is there, named by their position among them.
     std::vector<ShapeHandle> shapes(shapes_.size());
+    std::vector<InstanceHandle> present;
     std::vector<InstanceHandle> handles;
-    for (const Member* member : present) {
-        if (shapes[member->shape] == ShapeHandle()) {
-            shapes[member->shape] = *context.add_shape(shapes_[member->shape].rings);
+    for (const Member& member : members_) {
+        if (!shapes_[member.shape].is_present) {
+            continue;
         }
-        WorldInstance instance = member->instance;
-        instance.shape = shapes[member->shape];
+        if (shapes[member.shape] == ShapeHandle()) {
+            shapes[member.shape] = *context.add_shape(shapes_[member.shape].rings);
+        }
+        WorldInstance instance = member.instance;
+        instance.shape = shapes[member.shape];
+        present.push_back(member.handle);
         handles.push_back(*world.add(instance));
+        if (member.end) {
+            of_kept.moving.push_back(present.back());
+            of_fresh.moving.push_back(handles.back());
+            of_kept.ends.push_back(*member.end);
+        }
     }
-    const auto name_among = [](std::size_t i, std::size_t count) {
-        return i < count ? static_cast<double>(i) : -2.0;
+    of_fresh.ends = of_kept.ends;
+    of_kept.list_pairs(present);
+    of_fresh.list_pairs(handles);
+    if (!present.empty() && random_.whole(0, 2) == 0) {
+        const std::size_t ignored = any(present.size());
+        of_kept.options.filter.ignored = present[ignored];
+        of_fresh.options.filter.ignored = handles[ignored];
+    }
+    const auto position_in = [](const std::vector<InstanceHandle>& all) {
+        return [&all](InstanceHandle handle) {
+            const auto found = std::find(all.begin(), all.end(), handle);
+            return handle == InstanceHandle() ? -1.0
+                   : found == all.end()       ? -2.0
+                                              : static_cast<double>(found - all.begin());
+        };
     };
-    Answers kept([&](InstanceHandle handle) {
-        const auto found = std::find_if(present.begin(), present.end(), [&](const Member* member) {
-            return member->handle == handle;
-        });
-        return handle == InstanceHandle()
-                   ? -1.0
-                   : name_among(static_cast<std::size_t>(found - present.begin()), present.size());
-    });
-    Answers fresh([&](InstanceHandle handle) {
-        const auto found = std::find(handles.begin(), handles.end(), handle);
-        return handle == InstanceHandle()
-                   ? -1.0
-                   : name_among(static_cast<std::size_t>(found - handles.begin()), handles.size());
-    });
-    kept.ask(*world_, asked_shape_, questions);
-    fresh.ask(world, asked, questions);
-    kept.ask_pairs(*world_, present_handles);
-    fresh.ask_pairs(world, handles);
-    const Motions kept_motions = motions_of(present, present_handles);
-    const Motions fresh_motions = motions_of(present, handles);
-    kept.ask_impacts(*world_, *impacts_, kept_motions.moving, kept_motions.ends);
-    PairTable impacts(impacts_->query(), impacts_->options());
-    fresh.ask_impacts(world, impacts, fresh_motions.moving, fresh_motions.ends);
+    Answers kept(position_in(present));
+    Answers fresh(position_in(handles));
+    kept.ask(questions_, *world_, of_kept);
+    fresh.ask(make_questions_(), world, of_fresh);
+    for (const std::unique_ptr<Question>& question : questions_) {
+        kept_ += question->kept();
+    }
     require(kept.status(), "a query of the world");
     require(fresh.status(), "a query of the new world");
     return failure_.empty() ? kept.difference_from(fresh) : failure_;

@@ -3,9 +3,8 @@
 #include "answers.hpp"
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,9 @@ namespace nearfield::test {
 /// world except answers.
 class History {
 public:
-    History(std::uint64_t seed, const Settings& settings = {});
+    /// `questions`: what is asked; the world's own stay, as does what they keep.
+    History(std::uint64_t seed, std::function<QuestionList()> questions,
+            const Settings& settings = {});
 
     /// Something happens: an addition, a move, another form, a removal, a trim...
     void step();
@@ -23,8 +24,8 @@ public:
     [[nodiscard]] std::string compare();
     /// What has happened, one letter per step.
     [[nodiscard]] const std::string& log() const { return log_; }
-    [[nodiscard]] std::size_t size() const { return members_.size(); }
-    [[nodiscard]] World& world() { return *world_; }
+    /// How many pairs of tables were not answered anew, in all comparisons.
+    [[nodiscard]] std::uint32_t kept() const { return kept_; }
 
 private:
     struct KnownShape {
@@ -38,12 +39,6 @@ private:
         WorldInstance instance;
         std::optional<Pose> end = {};  ///< where it moves to while times of impact are asked for
     };
-    /// The members that move, and where to, in the spans of an update.
-    struct Motions {
-        std::vector<InstanceHandle> moving;
-        std::vector<Pose> ends;
-    };
-
     [[nodiscard]] Rings any_rings();
     [[nodiscard]] Pose any_pose();
     [[nodiscard]] std::size_t any(std::size_t count);
@@ -57,9 +52,6 @@ private:
     void remove_shape();
     void set_filter();
     void set_end();
-    /// `handles[i]`: the handle of members[i].
-    [[nodiscard]] static Motions motions_of(std::span<const Member* const> members,
-                                            std::span<const InstanceHandle> handles);
     void glance();
     void check_members();
     void require(const Status& status, const char* call);
@@ -69,9 +61,11 @@ private:
     std::optional<World> world_;
     std::vector<KnownShape> shapes_;
     std::vector<Member> members_;  // in the order of adding
-    std::optional<PairTable<TimeOfImpactQuery>> impacts_;
     Rings asked_;
     ShapeHandle asked_shape_;
+    std::function<QuestionList()> make_questions_;
+    QuestionList questions_;
+    std::uint32_t kept_ = 0;
     bool on_grid_;
     std::string log_;
     std::string failure_;

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace nearfield::test {
 namespace {
@@ -20,22 +21,18 @@ void run_backwards(void* user, std::uint32_t jobs, Job job, void* data) {
     ++*static_cast<std::uint32_t*>(user);
 }
 
-/// Answers in which an instance is named by its position.
-Answers answers_of(Scene& scene, ShapeHandle shape, const Questions& questions) {
-    Answers answers([&scene](InstanceHandle handle) {
-        const auto position = scene.position(handle);
-        return position ? static_cast<double>(*position) : -1.0;
-    });
-    answers.ask(scene.world(), shape, questions);
-    EXPECT_TRUE(answers.status().ok()) << answers.status().text();
-    return answers;
-}
-
+/// A world, and questions about it.
 struct Ask {
-    explicit Ask(std::uint64_t seed) : random(seed) {
-        placements = make_scene(SceneKind::ordinary, seed);
-        item = scaled_and_moved(star(random, 17, 0.4), 0.5, {});
-        questions = any_questions(random, box_of(placements), 500);
+    explicit Ask(std::uint64_t seed, int count = 500)
+        : random(seed),
+          placements(make_scene(SceneKind::ordinary, seed)),
+          item(scaled_and_moved(star(random, 17, 0.4), 0.5, {})),
+          questions(any_questions(random, box_of(placements), count)) {}
+
+    /// The answers of a scene, in which the item is added.
+    Answers answers(Scene& scene) {
+        questions.shape = scene.add_shape(item);
+        return answers_of(scene, questions);
     }
 
     Random random;
@@ -44,26 +41,29 @@ struct Ask {
     Questions questions;
 };
 
-TEST(WorldJobs, GiveTheSameAnswersHoweverMany) {
-    Ask ask(3);
+/// Answers by any number of jobs, twice, are those of one.
+void expect_same_with_jobs(int inputs, std::initializer_list<std::uint32_t> counts) {
+    Ask ask(3, inputs);
     Scene alone(ask.placements);
-    const Answers expected = answers_of(alone, alone.add_shape(ask.item), ask.questions);
+    const Answers expected = ask.answers(alone);
     ASSERT_GT(expected.size(), 10000U);
-    for (const std::uint32_t count : {1U, 2U, 3U, 7U}) {
+    for (const std::uint32_t count : counts) {
         std::uint32_t calls = 0;
         for (const JobSystem& jobs :
              {JobSystem{nullptr, count, run_on_threads}, JobSystem{&calls, count, run_backwards}}) {
-            Settings settings;
-            settings.jobs = jobs;
-            Scene scene(ask.placements, settings);
-            const ShapeHandle item = scene.add_shape(ask.item);
-            for (int frame = 0; frame < 2; ++frame) {
-                const Answers answers = answers_of(scene, item, ask.questions);
-                EXPECT_EQ(answers.difference_from(expected), "") << count << " jobs";
-            }
+            Scene scene(ask.placements, {.jobs = jobs});
+            EXPECT_EQ(ask.answers(scene).difference_from(expected), "") << count << " jobs";
+            const Answers again = answers_of(scene, ask.questions);
+            EXPECT_EQ(again.difference_from(expected), "") << count << " jobs";
         }
         EXPECT_EQ(calls > 0, count > 1) << "the work is not divided";
     }
+}
+
+TEST(WorldJobs, GiveTheSameAnswersHoweverMany) {
+    expect_same_with_jobs(500, {1, 2, 3, 7});
+    // Of so many that lists are put together from many parts.
+    expect_same_with_jobs(6000, {3});
 }
 
 TEST(WorldJobs, AreAtLeastOneAndAtMostTheirMaximum) {
@@ -79,100 +79,98 @@ TEST(WorldJobs, AreAtLeastOneAndAtMostTheirMaximum) {
     }
 }
 
-/// What is asked at the same time, and in what order, changes nothing.
-TEST(WorldLaws, OneByOneIsTheSameAsTogether) {
-    for (int number = 0; number < world_cases(6); ++number) {
-        const auto seed = static_cast<std::uint64_t>(number);
-        const auto kind = static_cast<SceneKind>(number % scene_kinds);
-        Scene scene(make_scene(kind, seed));
-        Random random(seed);
-        const Rings item = any_shape(random).rings;
-        const ShapeHandle shape = scene.add_shape(item);
-        const Rectangle box = box_of(scene.placements());
-        std::vector<Pose> poses;
-        std::vector<Vector2> points;
-        for (int i = 0; i < 60; ++i) {
-            points.push_back(any_point(random, scene, box));
-            poses.push_back({points.back(), random.between(-3.0, 3.0)});
-        }
-        std::vector<Clearance> together(poses.size());
-        ASSERT_TRUE(scene.world().find_clearances({shape}, poses, together).ok());
-        std::vector<NearestHit> nearest(points.size());
-        std::vector<NearestHit> edges(points.size());
-        NearestQuery of_edges;
-        of_edges.kind = NearestKind::edges;
-        ASSERT_TRUE(scene.world().find_nearest({}, points, nearest).ok());
-        ASSERT_TRUE(scene.world().find_nearest(of_edges, points, edges).ok());
-        for (std::size_t i = poses.size(); i-- > 0;) {
-            SCOPED_TRACE(testing::Message() << to_string(kind) << " " << seed << ", pose " << i);
-            Clearance one;
-            NearestHit instance;
-            NearestHit edge;
-            ASSERT_TRUE(scene.world().find_clearances({shape}, {&poses[i], 1}, {&one, 1}).ok());
-            ASSERT_TRUE(scene.world().find_nearest({}, {&points[i], 1}, {&instance, 1}).ok());
-            ASSERT_TRUE(scene.world().find_nearest(of_edges, {&points[i], 1}, {&edge, 1}).ok());
-            EXPECT_EQ(one.distance, together[i].distance);
-            EXPECT_EQ(one.instance, together[i].instance);
-            EXPECT_EQ(one.point, together[i].point);
-            EXPECT_EQ(one.nearest, together[i].nearest);
-            EXPECT_EQ(one.direction, together[i].direction);
-            for (const auto& [a, b] :
-                 {std::pair(instance, nearest[i]), std::pair(edge, edges[i])}) {
-                EXPECT_EQ(a.distance, b.distance);
-                EXPECT_EQ(a.instance, b.instance);
-                EXPECT_EQ(a.nearest, b.nearest);
-                EXPECT_EQ(a.feature.kind, b.feature.kind);
-                EXPECT_EQ(a.feature.index, b.feature.index);
-            }
+/// Paths through a box, in short steps: what is known of one pose helps with the next.
+std::vector<Pose> paths_through(Random& random, const Scene& scene, const Rectangle& box) {
+    std::vector<Pose> poses;
+    for (int path = 0; path < 4; ++path) {
+        Pose pose{any_point(random, scene, box), random.between(-7.0, 7.0)};
+        const double step =
+            random.whole(0, 3) == 0 ? 0.0 : random.scale(1e-3, 0.1) * (box.max.x - box.min.x);
+        const double turn = random.whole(0, 1) * random.between(-0.3, 0.3);
+        const auto is_usable = [](double coordinate) {
+            return std::abs(coordinate) <= largest_coordinate;
+        };
+        for (int i = 0; i < 30 && is_usable(pose.translation.x) && is_usable(pose.translation.y);
+             ++i) {
+            poses.push_back(pose);
+            pose.translation.x += step * std::cos(pose.angle);
+            pose.translation.y += step * std::sin(pose.angle);
+            pose.angle += turn;
         }
     }
+    return poses;
 }
+
+using WorldOneByOne = ScenesTest;
+
+/// What is asked at the same time changes nothing.
+TEST_P(WorldOneByOne, IsTheSameAsTogether) {
+    for_each_scene(5, 47, [](Scene& scene, Random& random) {
+        const Rectangle box = scene.box();
+        Questions questions = any_questions(random, box, 0);
+        questions.shape = any_asked(random, scene).shape;
+        questions.options.filter = any_filter(random, scene);
+        questions.tolerance = 1e-9 * size_of(GetParam(), box);
+        questions.poses = paths_through(random, scene, box);
+        for (int i = 0; i < 60; ++i) {
+            const Vector2 point = any_point(random, scene, box);
+            questions.points.push_back(point);
+            questions.segments.push_back(any_segment(random, scene, box));
+            questions.rectangles.push_back({point, {point.x + 0.3, point.y + 0.2}});
+            if (i % 8 == 0) {
+                questions.sweeps.push_back(
+                    {{point, 0.0}, {any_point(random, scene, box), random.between(-3.0, 3.0)}});
+            }
+        }
+        const Answers together = answers_of(scene, questions);
+        Answers one_by_one(scene);
+        const QuestionList list = questions_about_inputs();
+        for (std::size_t i = 0; i < std::max<std::size_t>(60, questions.poses.size()); ++i) {
+            one_by_one.ask(list, scene.world(), questions.about(i));
+        }
+        EXPECT_TRUE(one_by_one.status().ok()) << one_by_one.status().text();
+        EXPECT_EQ(one_by_one.difference_from(together), "");
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, WorldOneByOne, testing::ValuesIn(all_scene_kinds()));
 
 TEST(WorldLaws, WhoeverOwnsTheWorldAndTheContext) {
     Ask ask(11);
     Scene scene(ask.placements);
-    const ShapeHandle shape = scene.add_shape(ask.item);
-    const Answers expected = answers_of(scene, shape, ask.questions);
+    const Answers expected = ask.answers(scene);
     Context context(std::move(scene.context()));
     World world(std::move(scene.world()));
+    const auto answers = [&](World& asked) {
+        Answers all(scene);
+        all.ask(asked, ask.questions);
+        EXPECT_TRUE(all.status().ok()) << all.status().text();
+        return all;
+    };
     // Another world of the same context, in which the same shapes are in reverse order.
-    World other = std::move(*World::create(context));
-    for (std::size_t i = scene.size(); i-- > 0;) {
-        ASSERT_TRUE(other.add({scene.shape(i), ask.placements[i].pose}).has_value());
-    }
-    std::vector<std::uint8_t> intersects(ask.questions.poses.size());
-    ASSERT_TRUE(other.test_poses(shape, ask.questions.poses, intersects).ok());
-    Answers moved([&scene](InstanceHandle handle) {
-        const auto position = scene.position(handle);
-        return position ? static_cast<double>(*position) : -1.0;
-    });
-    moved.ask(world, shape, ask.questions);
-    EXPECT_TRUE(moved.status().ok()) << moved.status().text();
-    EXPECT_EQ(moved.difference_from(expected), "");
+    const auto reversed = [&] {
+        World other = std::move(*World::create(context));
+        for (std::size_t i = scene.size(); i-- > 0;) {
+            EXPECT_TRUE(other.add({scene.shape(i), ask.placements[i].pose}).has_value());
+        }
+        return other;
+    };
+    World other = reversed();
+    (void)answers(other);
+    EXPECT_EQ(answers(world).difference_from(expected), "");
     // Both see a shape that has changed.
-    ASSERT_TRUE(context.update_shape(scene.shape(0), rectangle({0, 0}, {90, 90})).ok());
     ask.placements[0].rings = rectangle({0, 0}, {90, 90});
+    ASSERT_TRUE(context.update_shape(scene.shape(0), ask.placements[0].rings).ok());
+    World fresh = reversed();
+    EXPECT_EQ(answers(other).difference_from(answers(fresh)), "");
+    const Answers later = answers(world);
     Scene deformed(ask.placements);
-    const Answers later = answers_of(deformed, deformed.add_shape(ask.item), ask.questions);
-    Answers moved_later([&scene](InstanceHandle handle) {
-        const auto position = scene.position(handle);
-        return position ? static_cast<double>(*position) : -1.0;
-    });
-    ASSERT_TRUE(other.test_poses(shape, ask.questions.poses, intersects).ok());
-    moved_later.ask(world, shape, ask.questions);
-    EXPECT_EQ(moved_later.difference_from(later), "");
-    std::vector<std::uint8_t> expected_intersects(intersects.size());
-    World fresh = std::move(*World::create(context));
-    for (std::size_t i = 0; i < scene.size(); ++i) {
-        ASSERT_TRUE(fresh.add({scene.shape(i), ask.placements[i].pose}).has_value());
-    }
-    ASSERT_TRUE(fresh.test_poses(shape, ask.questions.poses, expected_intersects).ok());
-    EXPECT_EQ(intersects, expected_intersects);
+    EXPECT_EQ(later.difference_from(ask.answers(deformed)), "");
 }
 
 /// Numbers do not depend on the order of adding; only who comes first among equals does.
 TEST(WorldLaws, TheOrderOfAddingDecidesTiesAlone) {
-    for (int number = 0; number < world_cases(6); ++number) {
+    for (int number = 0; number < random_cases(6); ++number) {
         Ask ask(static_cast<std::uint64_t>(100 + number));
         Scene forwards(ask.placements);
         std::vector<Placement> reversed(ask.placements.rbegin(), ask.placements.rend());
@@ -214,7 +212,7 @@ TEST(WorldLaws, TheOrderOfAddingDecidesTiesAlone) {
 
 /// Everything moved by the same rigid motion: distances stay, up to both bounds.
 TEST(WorldLaws, ARigidMotionOfEverythingChangesNothing) {
-    for (int number = 0; number < world_cases(8); ++number) {
+    for (int number = 0; number < random_cases(8); ++number) {
         Ask ask(static_cast<std::uint64_t>(200 + number));
         const Pose motion{{ask.random.between(-1e4, 1e4), ask.random.between(-1e4, 1e4)},
                           ask.random.between(-3.0, 3.0)};

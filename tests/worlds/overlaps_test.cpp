@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace nearfield::test {
 namespace {
@@ -62,17 +61,11 @@ Rectangle any_rectangle(Random& random, const Scene& scene, const Rectangle& box
     }
 }
 
-class WorldOverlaps : public testing::TestWithParam<int> {};
+using WorldOverlaps = ScenesTest;
 
 TEST_P(WorldOverlaps, OfPointsAndRectanglesAreThoseOfTheBruteForce) {
-    const auto kind = static_cast<SceneKind>(GetParam());
-    const int first = first_world_case();
-    for (int number = first; number < first + world_cases(6); ++number) {
-        const std::uint64_t seed = 1000U * static_cast<std::uint64_t>(number) + 71U;
-        SCOPED_TRACE(std::string(to_string(kind)) + ", seed " + std::to_string(seed));
-        Scene scene(make_scene(kind, seed));
-        const Rectangle box = box_of(scene.placements());
-        Random random(seed + 1);
+    for_each_scene(6, 71, [](Scene& scene, Random& random) {
+        const Rectangle box = scene.box();
         const WorldFilter filter = any_filter(random, scene);
         std::vector<Vector2> points(40);
         std::vector<Rectangle> rectangles(40);
@@ -87,7 +80,7 @@ TEST_P(WorldOverlaps, OfPointsAndRectanglesAreThoseOfTheBruteForce) {
             scene.world().find_overlaps(rectangles, of_rectangles, {.filter = filter}).ok());
         ASSERT_EQ(of_points.offsets.size(), points.size() + 1);
         ASSERT_EQ(of_rectangles.offsets.size(), rectangles.size() + 1);
-        for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t i = 0; i < points.size() && !HasFailure(); ++i) {
             SCOPED_TRACE(i);
             check_list(scene, filter, of_points, i, [&](std::size_t instance) {
                 const Wide distance = scene.truth(instance).signed_distance(wide(points[i]));
@@ -101,14 +94,11 @@ TEST_P(WorldOverlaps, OfPointsAndRectanglesAreThoseOfTheBruteForce) {
                 const bool most = scene.truth(instance).meets(grown(rectangle, slack));
                 return least == most ? (least ? 1 : 0) : 2;
             });
-            if (HasFatalFailure() || HasNonfatalFailure()) {
-                return;
-            }
         }
-    }
+    });
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, WorldOverlaps, testing::Range(0, scene_kinds));
+INSTANTIATE_TEST_SUITE_P(Scenes, WorldOverlaps, testing::ValuesIn(all_scene_kinds()));
 
 TEST(WorldOverlapsOfSquares, HoldTheirBoundaries) {
     Scene scene({{"square", rectangle({0, 0}, {10, 10}), {{1e6, -2e6}, 0.7}}});

@@ -1,305 +1,165 @@
-#include "scene.hpp"
+// Tables of the pairs that a world finds, or that are listed: against a batch, bit for bit.
 
-#include <nearfield/nearfield.hpp>
+#include "answers.hpp"
 
 #include <gtest/gtest.h>
 #include <tests/support/pair_tables.hpp>
 
 #include <algorithm>
-#include <iterator>
-#include <span>
+#include <cstdint>
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace nearfield::test {
 namespace {
 
-using Numbers = std::vector<double>;
-
-void add(Numbers& to, const Vector2& v) {
-    to.insert(to.end(), {v.x, v.y});
-}
-void add(Numbers& to, const Feature& feature) {
-    to.insert(to.end(), {static_cast<double>(feature.kind), static_cast<double>(feature.index)});
-}
-void add(Numbers& to, const PenetratingPoint& record) {
-    add(to, record.position);
-    add(to, record.direction);
-    add(to, record.nearest);
-    add(to, record.feature);
-    to.insert(to.end(), {record.depth, record.unique ? 1.0 : 0.0});
-}
-void add(Numbers& to, const ContactPoint& record) {
-    add(to, record.position);
-    add(to, record.normal);
-    add(to, record.nearest);
-    add(to, record.feature);
-    to.insert(to.end(), {record.distance, static_cast<double>(record.on), record.inside ? 1.0 : 0.0,
-                         record.unique ? 1.0 : 0.0});
-}
-void add(Numbers& to, const IntersectionSample& sample) {
-    add(to, sample.position);
-    to.push_back(sample.edge);
-}
-void add(Numbers& to, const ContactCluster& cluster) {
-    add(to, cluster.first);
-    add(to, cluster.last);
-    add(to, cluster.normal);
-    add(to, cluster.extreme);
-    to.push_back(cluster.count);
-}
-void add(Numbers& /*to*/, const NoPoint& /*none*/) {}
-void add(Numbers& to, const PenetrationValues& values) {
-    to.push_back(values.count);
-    if (values.count > 0) {
-        add(to, values.deepest);
-    }
-}
-void add(Numbers& to, const ContactValues& values) {
-    to.push_back(values.count);
-}
-void add(Numbers& to, const IntersectionValues& values) {
-    to.insert(to.end(), {static_cast<double>(values.count), values.area});
-}
-void add(Numbers& to, const SeparationValues& values) {
-    to.push_back(values.distance);
-    add(to, values.point_a);
-    add(to, values.point_b);
-    add(to, values.direction);
-    add(to, values.feature_a);
-    add(to, values.feature_b);
-    to.push_back(values.unique ? 1.0 : 0.0);
-}
-void add(Numbers& to, const ClosestPointValues& values) {
-    to.push_back(values.distance);
-    add(to, values.point);
-    add(to, values.nearest);
-    add(to, values.direction);
-}
-void add(Numbers& /*to*/, const IntersectionTestValues& /*none*/) {}
-void add(Numbers& to, const ContainmentValues& values) {
-    to.insert(to.end(), {values.inside ? 1.0 : 0.0, values.clearance, values.unique ? 1.0 : 0.0});
-    add(to, values.point_a);
-    add(to, values.point_b);
-    add(to, values.direction);
-    add(to, values.feature_a);
-    add(to, values.feature_b);
-}
-void add(Numbers& to, const SeparationVectorValues& values) {
-    add(to, values.vector);
-    to.insert(to.end(), {values.length, values.lower_bound});
+/// True if the filters of both let them be a pair.
+bool are_paired(Scene& scene, InstanceHandle a, InstanceHandle b) {
+    const WorldInstance one = *scene.world().instance(a);
+    const WorldInstance other = *scene.world().instance(b);
+    return (one.category & other.mask) != 0 && (other.category & one.mask) != 0;
 }
 
+/// Whether a table of hits alone has the row.
 template <class Query>
-Numbers numbers_of(PairTable<Query>& table) {
-    Numbers numbers;
-    for (const PairRow<Query>& row : table.rows()) {
-        numbers.insert(numbers.end(),
-                       {static_cast<double>(row.a.index), static_cast<double>(row.a.generation),
-                        static_cast<double>(row.b.index), static_cast<double>(row.b.generation),
-                        static_cast<double>(row.status), row.intersects ? 1.0 : 0.0,
-                        row.error_bound, static_cast<double>(row.point_count)});
-        add(numbers, static_cast<const typename Query::Result::Values&>(row));
-        for (const auto& record : table.points(row)) {
-            add(numbers, record);
-        }
-        if constexpr (std::is_same_v<Query, ContactQuery>) {
-            for (const ContactCluster& cluster : table.manifold(row)) {
-                add(numbers, cluster);
-            }
-        }
+bool is_hit(const PairRow<Query>& row, double reach) {
+    if (row.status != StatusCode::ok) {
+        return true;
     }
-    return numbers;
-}
-
-template <class Result>
-auto records_of(const Result& result) {
-    if constexpr (requires { result.samples; }) {
-        return std::span(result.samples);
-    } else if constexpr (requires { result.points; }) {
-        return std::span(result.points);
+    if constexpr (std::is_same_v<Query, PenetrationQuery>) {
+        return row.count > 0;
+    } else if constexpr (requires { row.inside; }) {
+        return row.inside;
+    } else if constexpr (requires { row.distance; }) {
+        return row.distance <= reach;
+    } else if constexpr (requires { row.count; }) {
+        return row.intersects || row.count > 0;
     } else {
-        return std::span<const NoPoint>();
+        return row.intersects;
     }
 }
 
-/// A world to which things happen: instances move, deform, come and go.
-class ChangingScene : public Scene {
-public:
-    explicit ChangingScene(std::uint64_t seed)
-        : Scene(make_scene(kind_of(seed), seed)), random_(seed + 7) {
-        for (std::size_t i = 0; i < size(); ++i) {
-            present_.push_back(i);
-            poses_.push_back(placements()[i].pose);
-        }
-    }
-
-    void step() {
-        for (int moves = random_.whole(0, 3); moves > 0 && !present_.empty(); --moves) {
-            const std::size_t i = any();
-            poses_[i].translation.x += random_.between(-0.3, 0.3);
-            poses_[i].angle += random_.between(-0.3, 0.3);
-            ASSERT_TRUE(world().move(handle(i), poses_[i]).ok());
-        }
-        if (random_.whole(0, 2) == 0) {
-            Rings rings = placements()[any()].rings;
-            for (Ring& ring : rings) {
-                for (Vector2& vertex : ring) {
-                    vertex.y *= random_.between(1.0, 1.05);
-                }
-            }
-            ASSERT_TRUE(context().update_shape(shape(any()), rings).ok());
-        }
-        if (random_.whole(0, 3) == 0 && present_.size() > 4) {
-            const auto at = static_cast<std::ptrdiff_t>(random_.whole(0, 3));
-            ASSERT_TRUE(world().remove(handle(present_[static_cast<std::size_t>(at)])).ok());
-            present_.erase(present_.begin() + at);
-        }
-        if (random_.whole(0, 5) == 0) {
-            ASSERT_TRUE(
-                world().set_filter(handle(any()), 1, random_.whole(0, 1) == 0 ? 2 : 1).ok());
-        }
-    }
-
-private:
-    static SceneKind kind_of(std::uint64_t seed) {
-        constexpr SceneKind kinds[] = {SceneKind::every_family, SceneKind::grid, SceneKind::holes,
-                                       SceneKind::ordinary};
-        return kinds[seed % std::size(kinds)];
-    }
-
-    [[nodiscard]] std::size_t any() {
-        return present_[static_cast<std::size_t>(
-            random_.whole(0, static_cast<int>(present_.size()) - 1))];
-    }
-
-    Random random_;
-    std::vector<std::size_t> present_;
-    std::vector<Pose> poses_;
-};
-
-/// Every row is the answer to the query of its pair, and no candidate that is hit is missing.
+/// Expects of a table of hits that it has the hits among the rows of the other.
 template <class Query>
-void check_against_batch(ChangingScene& scene, PairTable<Query>& table) {
+void expect_hits(PairTable<Query>& hits, PairTable<Query>& all) {
+    std::uint32_t next = 0;
+    for (const PairRow<Query>& row : all.rows()) {
+        if (is_hit(row, all.options().reach)) {
+            ASSERT_LT(next, hits.size());
+            EXPECT_EQ(hits.rows()[next].a, row.a);
+            EXPECT_EQ(hits.rows()[next].b, row.b);
+            EXPECT_EQ(hits.rows()[next].index, next);
+            ++next;
+        }
+    }
+    EXPECT_EQ(next, hits.size());
+}
+
+/// Every row is the answer to the query of its pair.
+template <class Query>
+void expect_rows_of_batch(Scene& scene, PairTable<Query>& table) {
     for (const PairRow<Query>& row : table.rows()) {
+        SCOPED_TRACE("row " + std::to_string(row.index));
         Query query = table.query();
         query.technique = Technique::cpu;
         const WorldInstance a = *scene.world().instance(row.a);
         const WorldInstance b = *scene.world().instance(row.b);
         query.a = {a.shape, a.pose};
         query.b = {b.shape, b.pose};
-        ASSERT_TRUE((a.category & b.mask) != 0 && (b.category & a.mask) != 0);
         const auto answer = scene.context().answer(query);
-        ASSERT_EQ(answer.has_value() ? StatusCode::ok : answer.error().code(), row.status);
-        if (!answer.has_value()) {
-            continue;
+        ASSERT_EQ(row.status, answer.has_value() ? StatusCode::ok : answer.error().code());
+        if (answer.has_value()) {
+            Numbers found;
+            Numbers expected;
+            found.add_answer(table, row);
+            expected.add_answer(*answer);
+            EXPECT_EQ(found.list(), expected.list());
         }
-        Numbers expected;
-        Numbers found;
-        add(expected, static_cast<const typename Query::Result::Values&>(*answer));
-        add(found, static_cast<const typename Query::Result::Values&>(row));
-        for (const auto& record : records_of(*answer)) {
-            add(expected, record);
-        }
-        for (const auto& record : table.points(row)) {
-            add(found, record);
-        }
-        if constexpr (requires { answer->manifold; }) {
-            for (const ContactCluster& cluster : answer->manifold) {
-                add(expected, cluster);
-            }
-            for (const ContactCluster& cluster : table.manifold(row)) {
-                add(found, cluster);
-            }
-        }
-        EXPECT_EQ(expected, found);
-        EXPECT_EQ(answer->intersects, row.intersects);
-        EXPECT_EQ(answer->error_bound, row.error_bound);
     }
 }
 
-template <class Query>
-void follow(const Query& query, double reach) {
-    std::uint32_t kept = 0;
-    for (std::uint64_t seed = 0; seed < 4; ++seed) {
-        ChangingScene scene(seed);
-        PairTable all(query, {reach, false});
-        PairTable hits(query, {reach, true});
-        for (int frame = 0; frame < 12; ++frame) {
-            scene.step();
+using WorldTables = ScenesTest;
+
+TEST_P(WorldTables, AreThoseOfABatch) {
+    for_each_scene(1, 31, [](Scene& scene, Random& /*random*/) {
+        for_each_query_of_pairs([&](const char* name, const auto& query, double reach) {
+            SCOPED_TRACE(name);
+            PairTable all(query, {.reach = reach});
+            PairTable hits(query, {.reach = reach, .hits_only = true});
             ASSERT_TRUE(scene.world().update(all).ok());
             ASSERT_TRUE(scene.world().update(hits).ok());
-            PairTable anew(query, {reach, false});
-            ASSERT_TRUE(scene.world().update(anew).ok());
-            ASSERT_EQ(anew.left_to_cpu(), anew.candidates());
-            ASSERT_EQ(numbers_of(all), numbers_of(anew)) << "seed " << seed << " frame " << frame;
-            PairTable hits_anew(query, {reach, true});
-            ASSERT_TRUE(scene.world().update(hits_anew).ok());
-            ASSERT_EQ(numbers_of(hits), numbers_of(hits_anew));
-            ASSERT_LE(hits.rows().size(), all.rows().size());
-            kept += frame == 0 ? 0 : all.candidates() - all.left_to_cpu();
-            if (frame % 4 == 0) {
-                check_against_batch(scene, all);
+            EXPECT_EQ(all.left_to_cpu(), all.candidates());
+            expect_hits(hits, all);
+            for (const auto& row : all.rows()) {
+                EXPECT_TRUE(are_paired(scene, row.a, row.b));
+            }
+            expect_rows_of_batch(scene, all);
+            expect_rows_of_batch(scene, hits);
+        });
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, WorldTables,
+                         testing::Values(SceneKind::ordinary, SceneKind::every_family,
+                                         SceneKind::grid, SceneKind::holes));
+
+/// The rows of a list are those of its pairs, in order; of hits alone, they are some of these.
+template <class Query>
+void expect_rows_of_list(Scene& scene, const Query& query, const std::vector<InstanceHandle>& a,
+                         const std::vector<InstanceHandle>& b) {
+    PairTable table(query, of_list);
+    const Status status = scene.world().update(table, {.a = a, .b = b});
+    ASSERT_TRUE(status.ok()) << status.text();
+    const auto rows = table.rows();
+    ASSERT_EQ(rows.size(), a.size());
+    EXPECT_EQ(table.candidates(), a.size());
+    PairTable hits(query, {.hits_only = true, .listed = true});
+    ASSERT_TRUE(scene.world().update(hits, {.a = a, .b = b}).ok());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(rows[i].a, a[i]);
+        EXPECT_EQ(rows[i].b, b[i]);
+        EXPECT_EQ(rows[i].index, i);
+    }
+    expect_hits(hits, table);
+    expect_rows_of_batch(scene, table);
+    expect_rows_of_batch(scene, hits);
+}
+
+using WorldListedPairs = ScenesTest;
+
+TEST_P(WorldListedPairs, AreThoseOfABatch) {
+    for_each_scene(3, 83, [](Scene& scene, Random& random) {
+        const auto any = [&] {
+            return scene.handle(
+                static_cast<std::size_t>(random.whole(0, static_cast<int>(scene.size()) - 1)));
+        };
+        // In any order; some with itself, and some in both directions, one after the other.
+        std::vector<InstanceHandle> a;
+        std::vector<InstanceHandle> b;
+        for (int pair = 0; pair < 150; ++pair) {
+            a.push_back(any());
+            b.push_back(any());
+            if (random.whole(0, 2) == 0) {
+                a.push_back(b.back());
+                b.push_back(a[a.size() - 2]);
             }
         }
-    }
-    EXPECT_GT(kept, 0U) << "nothing was kept";
+        expect_rows_of_list(scene, IntersectionTestQuery{}, a, b);
+        // Of the largest shapes, as few samples as there is memory for.
+        const double tolerance = GetParam() == SceneKind::extreme ? 1e6 : 0.05;
+        for (const bool records : {false, true}) {
+            PenetrationQuery query{.tolerance = 0.05, .points = PenetrationPoints::vertices};
+            query.summary_only = !records;
+            expect_rows_of_list(scene, query, a, b);
+            query.tolerance = tolerance;
+            query.points = PenetrationPoints::boundary;
+            expect_rows_of_list(scene, query, a, b);
+        }
+    });
 }
 
-TEST(PairTables, FollowPenetrations) {
-    PenetrationQuery query;
-    query.tolerance = 0.05;
-    follow(query, 0.0);
-    query.points = PenetrationPoints::vertices;
-    follow(query, 0.0);
-}
-
-TEST(PairTables, FollowContacts) {
-    ContactQuery query;
-    query.tolerance = 0.05;
-    query.contact_distance = 0.1;
-    follow(query, 0.1);
-}
-
-TEST(PairTables, FollowIntersections) {
-    IntersectionQuery query;
-    query.tolerance = 0.05;
-    follow(query, 0.0);
-}
-
-TEST(PairTables, FollowClosestPointsAndSeparations) {
-    ClosestPointQuery closest;
-    closest.tolerance = 0.05;
-    follow(closest, 0.5);
-    SeparationQuery separation;
-    separation.tolerance = 0.05;
-    follow(separation, 0.5);
-}
-
-TEST(PairTables, FollowIntersectionTestsAndSeparationVectors) {
-    follow(IntersectionTestQuery{}, 0.0);
-    SeparationVectorQuery vector;
-    vector.tolerance = 0.1;
-    vector.max_work = 20'000;
-    follow(vector, 0.0);
-}
-
-TEST(PairTables, FollowContainment) {
-    follow(ContainmentQuery{}, 0.0);
-}
-
-TEST(PairTables, HaveOnlyWhatIsInsideIfHitsAreWanted) {
-    Scene scene({{"bin", rectangle({0, 0}, {10, 10}), {}},
-                 {"inside", rectangle({0, 0}, {1, 1}), {{2.0, 4.0}}},
-                 {"partly", rectangle({0, 0}, {1, 1}), {{9.5, 4.0}}},
-                 {"outside", rectangle({0, 0}, {1, 1}), {{20.0, 4.0}}}});
-    PairTable table(ContainmentQuery{}, {0.0, true});
-    ASSERT_TRUE(scene.world().update(table).ok());
-    EXPECT_EQ(table.candidates(), 4U);
-    ASSERT_EQ(table.rows().size(), 1U);
-    EXPECT_EQ(table.rows()[0].a, scene.handle(1));
-    EXPECT_EQ(table.rows()[0].b, scene.handle(0));
-    EXPECT_EQ(table.rows()[0].clearance, 2.0);
-}
+INSTANTIATE_TEST_SUITE_P(Scenes, WorldListedPairs, testing::ValuesIn(all_scene_kinds()));
 
 TEST(PairTables, HaveTheRowsOfTheBroadPhaseInOrder) {
     Scene scene(make_scene(SceneKind::ordinary, 3));
@@ -337,7 +197,7 @@ TEST(PairTables, StartAnewInAnotherWorld) {
         EXPECT_EQ(table.left_to_cpu(), table.candidates());
         PairTable anew(IntersectionTestQuery{});
         ASSERT_TRUE(scene.world().update(anew).ok());
-        EXPECT_EQ(numbers_of(table), numbers_of(anew));
+        EXPECT_EQ(rows_of(table), rows_of(anew));
     }
 }
 
@@ -364,7 +224,7 @@ TEST(PairTables, AreSubmittedAndCollected) {
     }
     ASSERT_TRUE(table.collect().ok());
     EXPECT_FALSE(table.is_ready());
-    EXPECT_EQ(numbers_of(table), numbers_of(at_once));
+    EXPECT_EQ(rows_of(table), rows_of(at_once));
     EXPECT_EQ(table.left_to_cpu(), table.candidates());
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         EXPECT_EQ(table.row(i)->index, i);
@@ -395,8 +255,12 @@ TEST(PairTables, OfHitsDoNotDependOnTheReach) {
 
 TEST(PairTables, RefuseWhatAWorldCannotAnswer) {
     Scene scene(make_scene(SceneKind::ordinary, 0));
-    PairTable far(IntersectionTestQuery{}, {-1.0, false});
-    EXPECT_EQ(scene.world().update(far).code(), StatusCode::invalid_query);
+    for (const double reach : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+        PairTable far(IntersectionTestQuery{}, {.reach = reach});
+        const Status status = scene.world().update(far);
+        EXPECT_EQ(status.code(), StatusCode::invalid_query);
+        EXPECT_NE(status.message().find("reach"), std::string::npos) << status.message();
+    }
     PenetrationQuery query;
     query.tolerance = 0.05;
     query.technique = Technique::compute;
@@ -427,6 +291,104 @@ TEST(PairTables, RefuseWhatAWorldCannotAnswer) {
     EXPECT_EQ(status.code(), StatusCode::invalid_query);
     EXPECT_NE(status.message().find("tolerance"), std::string::npos) << status.message();
     EXPECT_TRUE(wrong.rows().empty());
+}
+
+TEST(PairTables, OfContactsReachAsFarAsTheContactDistance) {
+    Scene scene(unit_squares({{4.0, 0.0}, {4.0, 1.25}}));
+    PairTable near(ContactQuery{.tolerance = 0.01, .contact_distance = 0.5}, {.hits_only = true});
+    ASSERT_TRUE(scene.world().update(near).ok());
+    EXPECT_EQ(near.size(), 2U) << "contacts beyond the boxes are missing";
+}
+
+/// Three squares, each of which touches the next.
+class WorldListedSquares : public testing::Test {
+protected:
+    Scene scene_{unit_squares({{0, 0}, {1, 0}, {2, 0}})};
+};
+
+TEST_F(WorldListedSquares, StateWhatIsWrongWithAPair) {
+    const auto rounded = scene_.context().add_shape(rectangle({0, 0}, {1, 1}), 0.02);
+    ASSERT_TRUE(rounded.has_value());
+    const InstanceHandle far = *scene_.world().add({scene_.shape(0), {{1e6, 0.0}}});
+    const InstanceHandle coarse = *scene_.world().add({*rounded, {{0.5, 0.0}}});
+    const std::vector<InstanceHandle> a{scene_.handle(0), coarse, far, scene_.handle(1)};
+    const std::vector<InstanceHandle> b{coarse, scene_.handle(1), far, scene_.handle(2)};
+    for (const PenetrationPoints points :
+         {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
+        PenetrationQuery query{.tolerance = 0.03, .points = points};
+        expect_rows_of_list(scene_, query, a, b);  // finer than the rounded one permits
+        query.tolerance = 8e-7;                    // too fine for the far one
+        expect_rows_of_list(scene_, query, {a[2], a[0], a[3]}, {b[0], a[2], b[3]});
+        query.tolerance = 0.1;
+        expect_rows_of_list(scene_, query, a, b);
+    }
+    ASSERT_TRUE(scene_.context().remove_shape(scene_.shape(1)).ok());
+    const InstanceHandle first[] = {scene_.handle(0), scene_.handle(1), scene_.handle(2)};
+    const InstanceHandle second[] = {scene_.handle(1), scene_.handle(2), scene_.handle(2)};
+    PairTable penetrations(PenetrationQuery{.tolerance = 0.1, .summary_only = true}, of_list);
+    PairTable tests(IntersectionTestQuery{}, of_list);
+    const auto expect = [&](auto& table) {
+        ASSERT_TRUE(scene_.world().update(table, {.a = first, .b = second}).ok());
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(table.rows()[i].status, i < 2 ? StatusCode::unknown_shape : StatusCode::ok);
+            EXPECT_EQ(table.rows()[i].intersects, i == 2);
+        }
+    };
+    expect(penetrations);
+    expect(tests);
+}
+
+/// Of any query but times of impact.
+TEST_F(WorldListedSquares, AreAskedWhatTableIsAsked) {
+    const InstanceHandle a[] = {scene_.handle(0), scene_.handle(2), scene_.handle(2)};
+    const InstanceHandle b[] = {scene_.handle(2), scene_.handle(0), scene_.handle(1)};
+    PairTable separations(SeparationQuery{.tolerance = 0.01}, of_list);
+    ASSERT_TRUE(scene_.world().update(separations, {.a = a, .b = b}).ok());
+    ASSERT_EQ(separations.size(), 3U);
+    EXPECT_EQ(separations.rows()[0].distance, 1.0);
+    EXPECT_EQ(separations.rows()[1].a, scene_.handle(2));
+    EXPECT_EQ(separations.rows()[2].distance, 0.0);
+    PairTable contacts(ContactQuery{.tolerance = 0.1, .contact_distance = 0.2}, of_list);
+    ASSERT_TRUE(scene_.world().update(contacts, {.a = a, .b = b}).ok());
+    EXPECT_EQ(contacts.rows()[0].count, 0U);
+    EXPECT_GT(contacts.points(contacts.rows()[2]).size(), 0U);
+    EXPECT_GT(contacts.manifold(contacts.rows()[2]).size(), 0U);
+    PairTable impacts(TimeOfImpactQuery{.tolerance = 0.1}, of_list);
+    EXPECT_EQ(scene_.world().update(impacts, {.a = a, .b = b}).message(),
+              "update: times of impact are not asked of a list of pairs");
+}
+
+TEST_F(WorldListedSquares, AskTheCpu) {
+    const InstanceHandle both[] = {scene_.handle(0), scene_.handle(1)};
+    const auto refused = [&](const PenetrationQuery& query, PairTableOptions options) {
+        PairTable table(query, options);
+        const Status status = scene_.world().update(table, {.a = both, .b = both});
+        EXPECT_EQ(status.code(), StatusCode::invalid_query);
+        EXPECT_TRUE(table.rows().empty());
+        return status.message();
+    };
+    PenetrationQuery query;
+    EXPECT_EQ(refused(query, of_list).find("update: the tolerance is 0"), 0U);
+    query.tolerance = 0.1;
+    EXPECT_EQ(refused(query, {.technique = Technique::cpu}),
+              "update: pairs are given to a table that finds its own");
+    query.technique = Technique::compute;
+    EXPECT_EQ(refused(query, of_list),
+              "update: the table is answered by Technique::cpu, and its query asks for "
+              "Technique::compute");
+    query.technique = Technique::cpu;
+    query.on_device = true;
+    EXPECT_EQ(refused(query, of_list).find("update: commands of the host, poses that they write"),
+              0U);
+}
+
+TEST_F(WorldListedSquares, NeedAsManyOfEach) {
+    const InstanceHandle both[] = {scene_.handle(0), scene_.handle(1)};
+    const InstanceHandle one[] = {scene_.handle(0)};
+    PairTable tests(IntersectionTestQuery{}, of_list);
+    const Status status = scene_.world().update(tests, {.a = both, .b = one});
+    EXPECT_EQ(status.code(), StatusCode::invalid_query);
+    EXPECT_EQ(status.message(), "update: 2 and 1 instances form no pairs");
 }
 
 }  // namespace

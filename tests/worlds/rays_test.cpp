@@ -1,10 +1,10 @@
 #include "scene.hpp"
 
 #include <gtest/gtest.h>
+#include <tests/support/numbers.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <set>
 
 namespace nearfield::test {
@@ -81,12 +81,6 @@ void check_complete(const Scene& scene, const Segment& segment, const WorldFilte
     }
 }
 
-bool equal(const RayHit& a, const RayHit& b) {
-    return a.instance == b.instance && a.parameter == b.parameter &&
-           a.error_bound == b.error_bound && a.point == b.point && a.normal == b.normal &&
-           a.edge == b.edge;
-}
-
 void check_segment(const Scene& scene, const Segment& segment, const WorldFilter& filter,
                    std::span<const RayHit> hits, const RayHit& first) {
     check_complete(scene, segment, filter, hits);
@@ -105,23 +99,15 @@ void check_segment(const Scene& scene, const Segment& segment, const WorldFilter
         EXPECT_EQ(first.instance, InstanceHandle());
         EXPECT_EQ(first.parameter, 1.0);
     } else {
-        EXPECT_TRUE(equal(first, hits.front()))
-            << first.parameter << " at edge " << first.edge << ", but " << hits.front().parameter
-            << " at edge " << hits.front().edge;
+        EXPECT_EQ(numbers_of(first), numbers_of(hits.front()));
     }
 }
 
-class WorldRays : public testing::TestWithParam<int> {};
+using WorldRays = ScenesTest;
 
 TEST_P(WorldRays, HitWhatTheBruteForceHits) {
-    const auto kind = static_cast<SceneKind>(GetParam());
-    const int first = first_world_case();
-    for (int number = first; number < first + world_cases(6); ++number) {
-        const std::uint64_t seed = 1000U * static_cast<std::uint64_t>(number) + 29U;
-        SCOPED_TRACE(std::string(to_string(kind)) + ", seed " + std::to_string(seed));
-        Scene scene(make_scene(kind, seed));
-        const Rectangle box = box_of(scene.placements());
-        Random random(seed + 1);
+    for_each_scene(6, 29, [](Scene& scene, Random& random) {
+        const Rectangle box = scene.box();
         const WorldFilter filter = any_filter(random, scene);
         std::vector<Segment> segments(80);
         for (Segment& segment : segments) {
@@ -133,7 +119,7 @@ TEST_P(WorldRays, HitWhatTheBruteForceHits) {
         ASSERT_TRUE(scene.world().cast_rays(segments, hits, {.filter = filter}).ok());
         ASSERT_EQ(all.offsets.size(), segments.size() + 1);
         ASSERT_EQ(all.offsets.back(), all.hits.size());
-        for (std::size_t i = 0; i < segments.size(); ++i) {
+        for (std::size_t i = 0; i < segments.size() && !HasFailure(); ++i) {
             const Segment& s = segments[i];
             SCOPED_TRACE(testing::Message()
                          << std::hexfloat << "segment " << i << ": " << s.from.x << ' ' << s.from.y
@@ -142,18 +128,15 @@ TEST_P(WorldRays, HitWhatTheBruteForceHits) {
             const auto of_segment =
                 std::span(all.hits).subspan(all.offsets[i], all.offsets[i + 1] - all.offsets[i]);
             check_segment(scene, s, filter, of_segment, hits[i]);
-            if (HasFatalFailure() || HasNonfatalFailure()) {
-                return;
-            }
         }
-    }
+    });
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, WorldRays, testing::Range(0, scene_kinds));
+INSTANTIATE_TEST_SUITE_P(Scenes, WorldRays, testing::ValuesIn(all_scene_kinds()));
 
 TEST(WorldRaysThroughVertices, DoNotLeak) {
     Random random(5);
-    for (int number = 0; number < world_cases(40); ++number) {
+    for (int number = 0; number < random_cases(40); ++number) {
         const double size = random.scale(1e-3, 1e3);
         const Vector2 centre{random.between(-1e6, 1e6), random.between(-1e6, 1e6)};
         const int corners = random.whole(3, 90);

@@ -4,18 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace nearfield::test {
 namespace {
 
 constexpr double turn = 6.283185307179586;
-
-int number_of(const char* variable, int otherwise) {
-    const char* const asked = std::getenv(variable);
-    return asked == nullptr ? otherwise : std::atoi(asked);
-}
 
 Pose pose_in(Random& random, double half, const Vector2& centre = {}) {
     return {{centre.x + random.between(-half, half), centre.y + random.between(-half, half)},
@@ -109,14 +103,6 @@ void add_extremes(Random& random, std::vector<Placement>& scene) {
 
 }  // namespace
 
-int world_cases(int usual) {
-    return number_of("NEARFIELD_TEST_CASES", usual);
-}
-
-int first_world_case() {
-    return number_of("NEARFIELD_TEST_FIRST", 0);
-}
-
 const char* to_string(SceneKind kind) {
     constexpr const char* names[] = {"ordinary",     "every family", "far away", "far origin",
                                      "tiny and big", "grid",         "holes",    "extreme"};
@@ -185,6 +171,27 @@ Rectangle box_of(const std::vector<Placement>& placements) {
     return box;
 }
 
+double size_of(SceneKind kind, const Rectangle& box) {
+    return std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x),
+                     std::abs(box.max.y), kind == SceneKind::far_origin ? 1e8 : 1e7});
+}
+
+std::vector<Placement> unit_squares(std::initializer_list<Vector2> corners) {
+    std::vector<Placement> placements;
+    for (const Vector2& corner : corners) {
+        placements.push_back({"unit square", rectangle({0.0, 0.0}, {1.0, 1.0}), {corner, 0.0}});
+    }
+    return placements;
+}
+
+std::vector<SceneKind> all_scene_kinds() {
+    std::vector<SceneKind> kinds;
+    for (int kind = 0; kind < scene_kinds; ++kind) {
+        kinds.push_back(static_cast<SceneKind>(kind));
+    }
+    return kinds;
+}
+
 Scene::Scene(std::vector<Placement> placements, const Settings& settings)
     : placements_(std::move(placements)) {
     Expected<Context> context = Context::create_cpu(settings);
@@ -222,6 +229,19 @@ std::optional<std::size_t> Scene::position(InstanceHandle handle) const {
 bool Scene::passes(std::size_t i, const WorldFilter& filter) const {
     return (placements_[i].category & filter.mask) != 0 &&
            (placements_[i].mask & filter.category) != 0 && !(filter.ignored == handles_[i]);
+}
+
+Asked any_asked(Random& random, Scene& scene) {
+    if (random.whole(0, 2) == 0) {
+        const auto i =
+            static_cast<std::size_t>(random.whole(0, static_cast<int>(scene.size()) - 1));
+        return {scene.shape(i), scene.placements()[i].rings};
+    }
+    // Shapes of many edges are searched by trees, others by brute force.
+    const Rings any = random.whole(0, 2) == 0 ? star(random, random.whole(257, 600), 0.5)
+                                              : any_shape(random).rings;
+    const Rings rings = scaled_and_moved(any, random.scale(0.05, 3.0), {});
+    return {scene.add_shape(rings), rings};
 }
 
 WorldFilter any_filter(Random& random, const Scene& scene) {

@@ -4,9 +4,12 @@
 
 #include <nearfield/nearfield.hpp>
 
+#include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
+#include <tests/support/random_cases.hpp>
 
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -18,16 +21,6 @@
 namespace nearfield::test {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-
-[[nodiscard]] inline bool equal(const Clearance& a, const Clearance& b) {
-    return a.distance == b.distance && a.error_bound == b.error_bound && a.instance == b.instance &&
-           a.point == b.point && a.nearest == b.nearest && a.direction == b.direction;
-}
-
-/// The number of random cases: `usual`, or the environment variable NEARFIELD_TEST_CASES.
-[[nodiscard]] int world_cases(int usual);
-/// The first random case: 0, or the environment variable NEARFIELD_TEST_FIRST.
-[[nodiscard]] int first_world_case();
 
 /// What is to be in a world, in the order of adding.
 struct Placement {
@@ -55,6 +48,10 @@ inline constexpr int scene_kinds = 8;
 [[nodiscard]] std::vector<Placement> make_scene(SceneKind kind, std::uint64_t seed);
 /// The box around all of them.
 [[nodiscard]] Rectangle box_of(const std::vector<Placement>& placements);
+/// Unit squares with their low corners at these places.
+[[nodiscard]] std::vector<Placement> unit_squares(std::initializer_list<Vector2> corners);
+/// What tolerances are relative to that double precision resolves at the coordinates of a scene.
+[[nodiscard]] double size_of(SceneKind kind, const Rectangle& box);
 /// The same everywhere, moved by a pose.
 [[nodiscard]] Pose moved_by(const Pose& motion, const Pose& pose);
 [[nodiscard]] Vector2 moved_by(const Pose& motion, const Vector2& point);
@@ -68,6 +65,7 @@ public:
     World& world() { return *world_; }
     [[nodiscard]] const std::vector<Placement>& placements() const { return placements_; }
     [[nodiscard]] std::size_t size() const { return placements_.size(); }
+    [[nodiscard]] Rectangle box() const { return box_of(placements_); }
     [[nodiscard]] InstanceHandle handle(std::size_t i) const { return handles_[i]; }
     [[nodiscard]] ShapeHandle shape(std::size_t i) const { return shapes_[i]; }
     [[nodiscard]] Instance instance(std::size_t i) const { return {shapes_[i], poses_[i]}; }
@@ -89,6 +87,35 @@ private:
     std::vector<PlacedRings> truths_;
 };
 
+/// Laws of what is asked about a kind of scene.
+class ScenesTest : public testing::TestWithParam<SceneKind> {
+protected:
+    /// Calls `check(scene, random)` for scenes of the kind, which are random by `seed`, until one
+    /// fails.
+    template <class Check>
+    static void for_each_scene(int usual, std::uint64_t seed, const Check& check) {
+        const int first = first_case();
+        for (int number = first; number < first + random_cases(usual); ++number) {
+            const std::uint64_t own = 1000U * static_cast<std::uint64_t>(number) + seed;
+            SCOPED_TRACE(std::string(to_string(GetParam())) + ", seed " + std::to_string(own));
+            Scene scene(make_scene(GetParam(), own));
+            Random random(own + 1);
+            check(scene, random);
+            if (HasFailure()) {
+                return;
+            }
+        }
+    }
+};
+[[nodiscard]] std::vector<SceneKind> all_scene_kinds();
+
+/// A shape to ask with.
+struct Asked {
+    ShapeHandle shape;
+    Rings rings;
+};
+/// Any, or one that is in the world already.
+[[nodiscard]] Asked any_asked(Random& random, Scene& scene);
 /// A random filter: mostly one that lets everything pass.
 [[nodiscard]] WorldFilter any_filter(Random& random, const Scene& scene);
 /// A point in the neighbourhood of a scene: anywhere, on a vertex, on an edge, far away.
