@@ -106,50 +106,36 @@ protected:
         }
     }
 
-    /// All that a table says.
+    /// All that a table says but which of the edges that meet at a nearest point it names: that
+    /// depends on the points that are searched together.
     template <class Query>
-    static std::vector<double> numbers_of(PairTable<Query>& table) {
-        std::vector<double> all{1.0 * table.candidates(), 1.0 * table.left_to_cpu(),
-                                1.0 * table.size()};
-        for (std::uint32_t i = 0; i < table.size(); ++i) {
-            const auto row = table.row(i);
-            EXPECT_TRUE(row.has_value()) << row.error().text();
-            all.insert(all.end(), {1.0 * row->a.index, 1.0 * row->b.index, row->error_bound,
-                                   row->intersects ? 1.0 : 0.0});
-            if constexpr (requires { row->count; }) {
-                all.push_back(row->count);
+    static std::vector<double> numbers_of_parts(PairTable<Query>& table) {
+        Numbers numbers;
+        numbers.add(table.candidates(), table.left_to_cpu(), table.size());
+        for (PairRow<Query> row : table.rows()) {
+            numbers.add(row.a, row.b, row.status, row.intersects, row.error_bound);
+            if constexpr (requires { row.deepest; }) {
+                row.deepest.feature = {};
             }
-            if constexpr (requires { row->distance; }) {
-                all.push_back(row->distance);
+            numbers.add(static_cast<const typename Query::Result::Values&>(row));
+            for (auto record : table.points(row)) {
+                if constexpr (requires { record.feature; }) {
+                    record.feature = {};
+                }
+                numbers.add(record);
             }
-            if constexpr (requires { row->deepest; }) {
-                all.insert(all.end(), {row->deepest.depth, row->deepest.position.x,
-                                       row->deepest.position.y, row->deepest.nearest.x});
-            }
-            add_lists(table, i, all);
-        }
-        return all;
-    }
-
-private:
-    template <class Query>
-    static void add_lists(PairTable<Query>& table, std::uint32_t row, std::vector<double>& all) {
-        if constexpr (requires { table.query().summary_only; }) {
-            if (!table.query().summary_only) {
-                for (const auto& one : points_of(table, row)) {
-                    all.insert(all.end(),
-                               {one.position.x, one.position.y, one.nearest.x, one.nearest.y});
+            if constexpr (std::is_same_v<Query, ContactQuery>) {
+                for (ContactCluster cluster : table.manifold(row)) {
+                    cluster.extreme.feature = {};
+                    numbers.add(cluster);
                 }
             }
         }
-        if constexpr (std::is_same_v<Query, ContactQuery>) {
-            for (const ContactCluster& one : manifold_of(table, row)) {
-                all.insert(all.end(),
-                           {one.first.x, one.last.y, one.normal.x, one.normal.y, 1.0 * one.count});
-            }
-        }
+        EXPECT_TRUE(table.read_status().ok()) << table.read_status().text();
+        return numbers.list();
     }
 
+private:
     std::optional<test_support::FakeLoader> loader_;
     std::optional<Context> small_;
     std::optional<World> small_world_;

@@ -43,37 +43,8 @@ protected:
         const Status status = world().update(table, at_poses(buffer.poses()));
         gpu().finish();
         ASSERT_TRUE(status.ok()) << status.text();
-        std::uint32_t next = 0;
-        for (const PairRow<Query>& truth : cpu.rows()) {
-            SCOPED_TRACE("row " + std::to_string(next));
-            ASSERT_LT(next, table.size());
-            ASSERT_NO_FATAL_FAILURE(expect_equal(*table.row(next), truth, table.query()));
-            ++next;
-        }
-        EXPECT_EQ(next, table.size());
-        rows_ += next;
-    }
-    template <class Query>
-    static void expect_equal(const PairRow<Query>& row, const PairRow<Query>& truth,
-                             const Query& query) {
-        ASSERT_EQ(row.a, truth.a);
-        ASSERT_EQ(row.b, truth.b);
-        EXPECT_EQ(row.status, truth.status);
-        EXPECT_EQ(row.error_bound, truth.error_bound);
-        EXPECT_EQ(row.intersects, truth.intersects);
-        if constexpr (requires { row.count; }) {
-            EXPECT_EQ(row.count, truth.count);
-        }
-        if (truth.status != StatusCode::ok) {
-            return;
-        }
-        if constexpr (requires { row.deepest; }) {
-            EXPECT_NEAR(row.deepest.depth, truth.deepest.depth, query.tolerance / 1000.0);
-            EXPECT_EQ(row.deepest.position, truth.deepest.position);
-        }
-        if constexpr (requires { row.distance; }) {
-            EXPECT_EQ(row.distance, truth.distance);
-        }
+        expect_rows_of_cpu(table, cpu);
+        rows_ += table.size();
     }
 
     std::uint32_t rows_ = 0;  // that were compared

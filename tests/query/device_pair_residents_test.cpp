@@ -18,35 +18,9 @@ constexpr std::uint64_t device_pair_residents_seed = 28000;
 /// What tables of pairs leave on the device, compared with their exact rows.
 class DevicePairResidents : public DevicePairsOfHostTest {
 protected:
-    struct Read {
-        HeaderData pair_header;
-        HeaderData record_header;
-        std::vector<PairData> pairs;
-        std::vector<PointData> records;
-    };
-
-    template <class Data>
-    std::vector<Data> read(VkBuffer buffer, VkDeviceSize offset, std::size_t count,
-                           const OutputState& state) {
-        std::vector<Data> data(count);
-        if (count > 0) {
-            const auto words = gpu().read(buffer, offset, count * sizeof(Data), state);
-            std::memcpy(static_cast<void*>(data.data()), words.data(), count * sizeof(Data));
-        }
-        return data;
-    }
-    Read read(const PairsOnDevice& pairs) {
-        const auto header_of = [&](const ArrayOnDevice& array) {
-            return read<HeaderData>(array.header.buffer, array.header.offset, 1, pairs.state)[0];
-        };
-        Read all;
-        all.pair_header = header_of(pairs.pairs);
-        all.record_header = header_of(pairs.points);
-        EXPECT_LE(all.pair_header.count, pairs.pairs.capacity);
-        EXPECT_LE(all.record_header.count, pairs.points.capacity);
-        EXPECT_EQ(pairs.pairs.size, pairs.pairs.capacity * sizeof(PairData));
-        EXPECT_EQ(pairs.points.size, pairs.points.capacity * sizeof(PointData));
-        for (const HeaderData& header : {all.pair_header, all.record_header}) {
+    PairContents read(const PairsOnDevice& pairs) {
+        PairContents all = DevicePairsOfHostTest::read(pairs);
+        for (const HeaderData& header : {all.pair_header, all.point_header}) {
             EXPECT_EQ(header.points.vertexCount, header.count);
             EXPECT_EQ(header.points.instanceCount, 1U);
             EXPECT_EQ(header.quads.vertexCount, 6U);
@@ -56,8 +30,6 @@ protected:
             EXPECT_EQ(header.origin[0], static_cast<float>(pairs.origin.x));
             EXPECT_EQ(header.origin[1], static_cast<float>(pairs.origin.y));
         }
-        all.pairs = read<PairData>(pairs.pairs.buffer, 0, all.pair_header.count, pairs.state);
-        all.records = read<PointData>(pairs.points.buffer, 0, all.record_header.count, pairs.state);
         return all;
     }
 
@@ -66,10 +38,10 @@ protected:
     static constexpr double near = 40.0 * 0x1p-17;
 
     /// Of the records of a row, that of a point; null if there is none.
-    static const PointData* find(const Read& all, std::uint32_t first, std::uint32_t count,
+    static const PointData* find(const PairContents& all, std::uint32_t first, std::uint32_t count,
                                  const Vector2& origin, const Vector2& point) {
         for (std::uint32_t i = first; i < first + count; ++i) {
-            const PointData& one = all.records[i];
+            const PointData& one = all.points[i];
             if (std::hypot(origin.x + static_cast<double>(one.position[0]) - point.x,
                            origin.y + static_cast<double>(one.position[1]) - point.y) <= near) {
                 return &one;
@@ -111,8 +83,8 @@ protected:
         ASSERT_TRUE(status.ok()) << status.text();
         const Expected<PairsOnDevice> pairs = table.on_device();
         ASSERT_TRUE(pairs.has_value()) << pairs.error().text();
-        const Read all = read(*pairs);
-        EXPECT_EQ(all.pair_header.overflow + all.record_header.overflow, 0U);
+        const PairContents all = read(*pairs);
+        EXPECT_EQ(all.pair_header.overflow + all.point_header.overflow, 0U);
         std::map<std::pair<std::uint32_t, std::uint32_t>, const PairData*> by_pair;
         std::uint32_t undecided = 0;
         for (const PairData& pair : all.pairs) {
@@ -138,10 +110,10 @@ protected:
 
     template <class Query>
     void compare_row(PairTable<Query>& table, std::uint32_t i, const PairRow<Query>& row,
-                     const PairData& pair, const Read& all, const Vector2& origin) {
+                     const PairData& pair, const PairContents& all, const Vector2& origin) {
         SCOPED_TRACE("row " + std::to_string(i));
-        ASSERT_LE(pair.first_point + pair.point_count, all.records.size());
-        ASSERT_LE(pair.first_of_b + pair.count_of_b, all.records.size());
+        ASSERT_LE(pair.first_point + pair.point_count, all.points.size());
+        ASSERT_LE(pair.first_of_b + pair.count_of_b, all.points.size());
         if ((pair.flags & pair_flags::uncertain) == 0) {
             EXPECT_EQ(pair.count, row.count);
         }
@@ -168,10 +140,10 @@ protected:
             ++records_;
         }
         if constexpr (std::is_same_v<Query, PenetrationQuery>) {
-            ASSERT_LT(pair.deepest, all.records.size());
+            ASSERT_LT(pair.deepest, all.points.size());
             EXPECT_NEAR(static_cast<double>(pair.depth), row.deepest.depth, near);
-            EXPECT_NEAR(all.records[pair.deepest].distance, pair.depth, 1e-4F);
-            EXPECT_NE(all.records[pair.deepest].feature & feature_bits::inside, 0U);
+            EXPECT_NEAR(all.points[pair.deepest].distance, pair.depth, 1e-4F);
+            EXPECT_NE(all.points[pair.deepest].feature & feature_bits::inside, 0U);
         } else {
             EXPECT_EQ(pair.deepest, no_point);
         }
@@ -218,15 +190,15 @@ TEST_F(DevicePairResidents, SayThatTheyAreNotAllThere) {
     }
     PairTable table(PenetrationQuery{.tolerance = 0.05, .on_device = true}, on_device);
     ASSERT_TRUE(world().submit(table).ok());
-    const Read before = read(*table.on_device());
+    const PairContents before = read(*table.on_device());
     EXPECT_EQ(before.pair_header.overflow, 1U);
-    EXPECT_EQ(before.record_header.overflow, 1U);
+    EXPECT_EQ(before.point_header.overflow, 1U);
     const std::uint64_t revision = table.on_device()->revision;
     ASSERT_TRUE(table.collect().ok());
     EXPECT_NE(table.on_device()->revision, revision);
-    const Read after = read(*table.on_device());
+    const PairContents after = read(*table.on_device());
     EXPECT_EQ(after.pair_header.overflow, 0U);
-    EXPECT_EQ(after.record_header.overflow, 0U);
+    EXPECT_EQ(after.point_header.overflow, 0U);
     EXPECT_EQ(after.pairs.size(), 120U * 119U);
     EXPECT_EQ(table.size(), 120U * 119U);
     ASSERT_TRUE(world().submit(table).ok());

@@ -4,8 +4,11 @@
 #include <tests/limits/cut.hpp>
 #include <tests/query/device_pairs.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace nearfield::test {
@@ -20,7 +23,8 @@ struct AskedTable {
     double reach = 0.0;
 };
 
-/// What a kind of query is asked. `size`: of the shapes.
+/// What a kind of query is asked. `size`: of the shapes. close(): with a reach of 1/4, if any;
+/// fine(): more than single precision tells of long shapes, and double precision of very long ones.
 template <class Query>
 struct Kind;
 
@@ -40,6 +44,9 @@ struct Kind<PenetrationQuery> {
     static AskedTable<PenetrationQuery> close() {
         return {{.tolerance = 1e-5, .points = PenetrationPoints::vertices}};
     }
+    static AskedTable<PenetrationQuery> fine() {
+        return {{.tolerance = 1e-6, .points = PenetrationPoints::vertices}};
+    }
 };
 
 template <>
@@ -58,7 +65,10 @@ struct Kind<ContactQuery> {
         return {{.tolerance = 0.02 * size, .contact_distance = 0.05 * size}};
     }
     static AskedTable<ContactQuery> close() {
-        return {{.tolerance = 0.05, .contact_distance = 1.0 / 3.0}};
+        return {{.tolerance = 0.05, .contact_distance = 0.25}};
+    }
+    static AskedTable<ContactQuery> fine() {
+        return {{.tolerance = 1e-4, .contact_distance = 1e-3, .summary_only = true}};
     }
 };
 
@@ -74,6 +84,7 @@ struct Kind<IntersectionTestQuery> {
     }
     static AskedTable<IntersectionTestQuery> far(double /*size*/) { return {}; }
     static AskedTable<IntersectionTestQuery> close() { return {}; }
+    static AskedTable<IntersectionTestQuery> fine() { return {}; }
 };
 
 /// Of queries whose answer is a distance.
@@ -92,7 +103,8 @@ struct KindOfDistance {
                 {query, size * random.scale(0.01, 5.0)}};
     }
     static AskedTable<Query> far(double size) { return {{.tolerance = 0.01 * size}, 0.3 * size}; }
-    static AskedTable<Query> close() { return {{.tolerance = 0.01}, 1.0 / 3.0}; }
+    static AskedTable<Query> close() { return {{.tolerance = 0.01}, 0.25}; }
+    static AskedTable<Query> fine() { return {{.tolerance = 1e-6}, 1.0}; }
 };
 template <>
 struct Kind<SeparationQuery> : KindOfDistance<SeparationQuery> {};
@@ -105,12 +117,13 @@ protected:
     static Tables<Query> tables_of(const AskedTable<Query>& asked) {
         return Tables<Query>(asked.query, asked.reach);
     }
-    /// Squares that overlap or touch, of which some pairs are the CPU's.
+    /// Squares that overlap, touch or are at the reach of close(): some pairs are the CPU's.
     void add_squares() {
         const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
         for (int i = 0; i < 8; ++i) {
-            add(square, {.translation = {i / 3.0 + i, 0.0}});
-            add(square, {.translation = {i / 3.0 + i + 1.0, 0.5}});
+            const double x = 1.0 / 3.0 + 1.25 * i;
+            add(square, {.translation = {x, 0.0}});
+            add(square, {.translation = {x + 1.0, 0.5}});
         }
     }
 };
@@ -232,44 +245,133 @@ TYPED_TEST(DevicePairTables, CutByLimitsAreNone) {
 }
 
 /// The order of the rows and every bit of them are the same in each run, and whether a row is read
-/// by itself or with all others.
-TYPED_TEST(DevicePairTables, AreTheSameInEachRun) {
+/// by itself or with all others, at once or when the world has changed.
+TYPED_TEST(DevicePairTables, AreTheSameInEachRunAndStayAsTheyWere) {
     Random random(device_pair_tables_seed + 5000);
+    std::vector<InstanceHandle> added;
+    ShapeHandle last;
     for (const Rings& rings : some_shapes(random)) {
-        const ShapeHandle shape = this->add_shape(rings);
+        last = this->add_shape(rings);
         for (int i = 0; i < 8; ++i) {
-            this->add(shape, this->any_pose(random, 8.0));
+            added.push_back(this->add(last, this->any_pose(random, 8.0)));
         }
     }
     const AskedTable<TypeParam> asked = Kind<TypeParam>::far(1.0);
-    PairTable<TypeParam> first(asked.query, within(asked.reach, on_device));
-    ASSERT_TRUE(this->world().update(first).ok());
+    const auto table = [&] {
+        return PairTable<TypeParam>(asked.query, within(asked.reach, on_device));
+    };
+    PairTable<TypeParam> first = table();
+    PairTable<TypeParam> read_later = table();
+    PairTable<TypeParam> read_one_by_one = table();
+    for (PairTable<TypeParam>* const each : {&first, &read_later, &read_one_by_one}) {
+        ASSERT_TRUE(this->world().update(*each).ok());
+    }
     EXPECT_GT(first.size(), 10U);
-    for (int run = 0; run < 2; ++run) {
-        PairTable<TypeParam> second(asked.query, within(asked.reach, on_device));
-        ASSERT_TRUE(this->world().update(second).ok());
-        ASSERT_EQ(first.size(), second.size());
-        for (std::uint32_t i = 0; i < first.size(); ++i) {
-            const auto one = first.row(i);
-            ASSERT_TRUE(one.has_value());
-            const PairRow<TypeParam>& other = second.rows()[i];
-            EXPECT_EQ(one->a, other.a);
-            EXPECT_EQ(one->b, other.b);
-            EXPECT_EQ(one->index, other.index);
-            if constexpr (requires { one->count; }) {
-                EXPECT_EQ(one->count, other.count);
-            }
-            const auto records = points_of(first, i);
-            const auto again = points_of(second, i);
-            ASSERT_EQ(records.size(), again.size());
-            for (std::size_t k = 0; k < records.size(); ++k) {
-                if constexpr (requires { records[k].nearest; }) {
-                    EXPECT_EQ(records[k].position, again[k].position);
-                    EXPECT_EQ(records[k].nearest, again[k].nearest);
-                }
+    const std::vector<double> expected = numbers_of_table(first);
+    for (const InstanceHandle instance : added) {
+        ASSERT_TRUE(this->world().move(instance, this->any_pose(random, 8.0)).ok());
+    }
+    ASSERT_TRUE(this->context().update_shape(last, rectangle({-3.0, -3.0}, {3.0, 3.0})).ok());
+    EXPECT_EQ(numbers_of_table(read_later), expected);
+    Numbers one_by_one;
+    for (std::uint32_t i = 0; i < read_one_by_one.size(); ++i) {
+        const auto row = read_one_by_one.row(i);
+        ASSERT_TRUE(row.has_value()) << row.error().text();
+        one_by_one.add_row(read_one_by_one, *row);
+    }
+    EXPECT_EQ(one_by_one.list(), rows_of(first));
+}
+
+/// Sides that touch, corners on sides, corners on corners, and the same shape twice, whatever the
+/// rounding of their places says; and squares apart by the reach itself.
+TYPED_TEST(DevicePairTables, OfSquaresThatTouchOrAreAtTheReach) {
+    const ShapeHandle square = this->add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    for (int x = 0; x < 6; ++x) {
+        for (int y = 0; y < 6; ++y) {
+            const Vector2 place{x / 3.0 + x, y / 3.0 + y};
+            this->add(square, {.translation = place});
+            this->add(square, {.translation = {place.x + 1.0, place.y}});
+            this->add(square, {.translation = {place.x + 1.0, place.y + 1.0}});
+            // Of contacts of shapes that share a boundary, either normal is right.
+            if (x == y && !std::is_same_v<TypeParam, ContactQuery>) {
+                this->add(square, {.translation = place});
+                this->add(square, {.translation = {place.x + 0.25, place.y + 0.25}});
+                this->add(square, {.translation = {place.x, place.y + 1.0 + 1e-14}});
             }
         }
     }
+    for (int i = 0; i < 12; ++i) {
+        const Vector2 place{i / 3.0 + 4.0 * i, 20.0};
+        this->add(square, {.translation = place});
+        this->add(square, {.translation = {place.x + 1.25 - 0.25 * (i % 2), 20.5}});
+    }
+    Tables<TypeParam> tables = this->tables_of(Kind<TypeParam>::close());
+    this->compare(tables);
+    EXPECT_GT(tables.device.size(), 0U);
+    EXPECT_GT(tables.device.left_to_cpu(), 0U);
+}
+
+/// Gaps and overlaps that single precision does not resolve, and gaps of a few roundings of their
+/// places, or less: which of them intersect, the CPU tells.
+TYPED_TEST(DevicePairTables, OfSquaresThatAlmostTouch) {
+    const auto compare = [&](const AskedTable<TypeParam>& asked, double size, const Vector2& first,
+                             double apart, const auto& gap_of) {
+        const ShapeHandle square = this->add_shape(rectangle({0.0, 0.0}, {size, size}));
+        std::vector<InstanceHandle> added;
+        for (int i = 0; i < 48; ++i) {
+            const double x = first.x + apart * size * i;
+            added.push_back(this->add(square, {.translation = {x, first.y}}));
+            const Vector2 beside{x + size + gap_of(i), first.y + 0.3 * size};
+            added.push_back(this->add(square, {.translation = beside}));
+        }
+        Tables<TypeParam> tables = this->tables_of(asked);
+        this->compare(tables);
+        EXPECT_GT(tables.device.candidates(), 10U);
+        this->remove(added);
+    };
+    using Kind = Kind<TypeParam>;
+    compare(Kind::close(), 1.0, {}, 4.0 + 1.0 / 3.0,
+            [](int i) { return std::ldexp(i % 2 == 0 ? 1.0 : -1.0, -20 - i % 20); });
+    for (const double size : {1.0, 1e-5}) {
+        compare(Kind::far(size), size, {1e6, 1e6}, 3.0,
+                [](int i) { return std::ldexp(1.0, i / 2 - 44); });
+    }
+}
+
+/// Dots in the hole and in the walls of a frame, between rings that alternate and across their
+/// boundaries; and a bar across all, which has no sample in them.
+TYPED_TEST(DevicePairTables, OfNestedRings) {
+    const auto square = [](double half) { return rectangle({-half, -half}, {half, half}).front(); };
+    this->add(this->add_shape({square(3.0), square(2.0)}), {});
+    this->add(this->add_shape({square(6.0), square(5.0), square(4.0), square(3.5)}), {});
+    this->add(this->add_shape({square(10.0), square(7.75)}), {});
+    this->add(this->add_shape(rectangle({-30.0, -0.01}, {30.0, 0.01})),
+              {.translation = {0.0, 5.5}, .angle = 0.1});
+    const ShapeHandle dot = this->add_shape({square(0.25)});
+    for (const double x : {0.0, 1.5, 1.7, 2.5, 3.25, 3.75, 4.5, 5.5, 7.0, 9.5, 10.2, 12.0}) {
+        this->add(dot, {.translation = {x, 0.0}, .angle = 0.1});
+        this->add(dot, {.translation = {0.0, -x}});
+    }
+    for (const double size : {1.0, 0.1, 30.0}) {
+        Tables<TypeParam> tables = this->tables_of(Kind<TypeParam>::far(size));
+        this->compare(tables);
+        EXPECT_GT(tables.device.size(), 5U);
+    }
+}
+
+/// A tolerance that the coordinates of one instance do not resolve is an error of its pairs alone.
+TYPED_TEST(DevicePairTables, StateTheErrorsOfTheirPairs) {
+    const ShapeHandle small = this->add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    this->add(small, {});
+    this->add(small, {.translation = {0.5, 0.5}});
+    this->add(this->add_shape(rectangle({-1e9, -1.0}, {1e9, 1.0})), {});
+    Tables<TypeParam> tables = this->tables_of(Kind<TypeParam>::fine());
+    this->compare(tables);
+    const auto rows = tables.device.rows();
+    const auto errors = std::count_if(rows.begin(), rows.end(),
+                                      [](const auto& row) { return row.status != StatusCode::ok; });
+    const bool has_tolerance = !std::is_same_v<TypeParam, IntersectionTestQuery>;
+    EXPECT_EQ(2 * tables.device.size(), has_tolerance ? 3 * errors : 6);
 }
 
 TYPED_TEST(DevicePairTables, OfAnEmptyWorldAreNone) {

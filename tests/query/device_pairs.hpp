@@ -2,10 +2,13 @@
 
 #include <tests/query/query_test.hpp>
 #include <tests/support/host_gpu.hpp>
+#include <tests/support/numbers.hpp>
 #include <tests/support/pair_tables.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -90,6 +93,50 @@ void expect_all_equal(std::span<const Element> found, std::span<const Element> t
     }
 }
 
+template <class Query>
+void expect_rows_of_cpu(PairTable<Query>& device, PairTable<Query>& cpu) {
+    ASSERT_EQ(device.size(), cpu.size());
+    double tolerance = 0.0;
+    if constexpr (requires(Query query) { query.tolerance; }) {
+        tolerance = cpu.query().tolerance;
+    }
+    const auto rows = device.rows();
+    ASSERT_EQ(rows.size(), device.size()) << device.read_status().text();
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        SCOPED_TRACE("row " + std::to_string(i));
+        const PairRow<Query>& found = rows[i];
+        const PairRow<Query>& truth = cpu.rows()[i];
+        ASSERT_EQ(found.a, truth.a);
+        ASSERT_EQ(found.b, truth.b);
+        EXPECT_EQ(found.index, i);
+        EXPECT_EQ(found.status, truth.status);
+        EXPECT_EQ(found.intersects, truth.intersects);
+        EXPECT_EQ(found.error_bound, truth.error_bound);
+        EXPECT_EQ(found.point_count, truth.point_count);
+        if (truth.status != StatusCode::ok) {
+            continue;
+        }
+        using Values = typename Query::Result::Values;
+        expect_equal(static_cast<const Values&>(found), static_cast<const Values&>(truth),
+                     tolerance);
+        if constexpr (requires { cpu.query().summary_only; }) {
+            expect_all_equal(device.points(found), cpu.points(truth), tolerance);
+        }
+        if constexpr (std::is_same_v<Query, ContactQuery>) {
+            expect_all_equal(device.manifold(found), cpu.manifold(truth), tolerance);
+        }
+    }
+}
+
+/// All that a table says.
+template <class Query>
+std::vector<double> numbers_of_table(PairTable<Query>& table) {
+    std::vector<double> numbers = rows_of(table);
+    EXPECT_EQ(table.rows().size(), table.size()) << table.read_status().text();
+    numbers.insert(numbers.end(), {1.0 * table.candidates(), 1.0 * table.left_to_cpu()});
+    return numbers;
+}
+
 /// What a test asks of a world again and again, by the device and by the CPU.
 template <class Query>
 struct Tables {
@@ -153,39 +200,8 @@ protected:
         const Status status = world().update(tables.device, input);
         ASSERT_TRUE(status.ok()) << status.text();
         ASSERT_TRUE(world().update(tables.cpu, input).ok());
-        ASSERT_EQ(tables.device.size(), tables.cpu.size());
         EXPECT_GE(tables.device.candidates(), tables.device.size());
-        double tolerance = 0.0;
-        if constexpr (requires(Query query) { query.tolerance; }) {
-            tolerance = tables.cpu.query().tolerance;
-        }
-        const auto rows = tables.device.rows();
-        ASSERT_EQ(rows.size(), tables.device.size()) << tables.device.read_status().text();
-        for (std::uint32_t i = 0; i < rows.size(); ++i) {
-            SCOPED_TRACE("row " + std::to_string(i));
-            const PairRow<Query>& found = rows[i];
-            const PairRow<Query>& truth = tables.cpu.rows()[i];
-            ASSERT_EQ(found.a, truth.a);
-            ASSERT_EQ(found.b, truth.b);
-            EXPECT_EQ(found.index, i);
-            EXPECT_EQ(found.status, truth.status);
-            EXPECT_EQ(found.intersects, truth.intersects);
-            EXPECT_EQ(found.error_bound, truth.error_bound);
-            EXPECT_EQ(found.point_count, truth.point_count);
-            if (truth.status != StatusCode::ok) {
-                continue;
-            }
-            using Values = typename Query::Result::Values;
-            expect_equal(static_cast<const Values&>(found), static_cast<const Values&>(truth),
-                         tolerance);
-            if constexpr (requires { tables.cpu.query().summary_only; }) {
-                expect_all_equal(tables.device.points(found), tables.cpu.points(truth), tolerance);
-            }
-            if constexpr (std::is_same_v<Query, ContactQuery>) {
-                expect_all_equal(tables.device.manifold(found), tables.cpu.manifold(truth),
-                                 tolerance);
-            }
-        }
+        expect_rows_of_cpu(tables.device, tables.cpu);
     }
     template <class Query>
     void compare(const Query& query, double reach = 0.0) {
@@ -194,7 +210,7 @@ protected:
     }
 
     /// Any sequence of changes: adds, moves, filters and removes instances of some_shapes(), which
-    /// deform, and calls `compare` after each step.
+    /// deform, and calls `compare` after each step. In some steps one of these happens alone.
     template <class Compare>
     void run_history(Random& random, const History& history, const Compare& compare) {
         std::vector<ShapeHandle> shapes;
@@ -208,15 +224,30 @@ protected:
         std::vector<InstanceHandle> present;
         for (int step = 0; step < history.steps; ++step) {
             SCOPED_TRACE("step " + std::to_string(step));
-            for (int i = step == 0 ? history.instances : random.whole(0, 20); i > 0; --i) {
-                present.push_back(add(any_of_shapes(), any_pose(random, history.extent)));
+            const int alone = step == 0 ? adding : random.whole(adding, 2 * kinds_of_changes);
+            const auto happens = [alone](int kind) {
+                return alone == kind || alone >= kinds_of_changes;
+            };
+            if (happens(adding)) {
+                for (int i = step == 0 ? history.instances : random.whole(0, 20); i > 0; --i) {
+                    present.push_back(add(any_of_shapes(), any_pose(random, history.extent)));
+                }
             }
-            ASSERT_NO_FATAL_FAILURE(change_some(random, present, history.extent));
-            for (int i = random.whole(0, 10); i > 0; --i) {
+            for (const InstanceHandle handle : present) {
+                if (happens(moving) && random.whole(0, 3) == 0) {
+                    ASSERT_TRUE(world().move(handle, any_pose(random, history.extent)).ok());
+                }
+                if (happens(filtering) && random.whole(0, 30) == 0) {
+                    const auto bits = static_cast<std::uint32_t>(random.whole(1, 3));
+                    ASSERT_TRUE(world().set_filter(handle, bits, 3 - bits / 2).ok());
+                }
+            }
+            for (int i = happens(removing) ? random.whole(0, 10) : 0; i > 0 && !present.empty();
+                 --i) {
                 ASSERT_TRUE(world().remove(present.back()).ok());
                 present.pop_back();
             }
-            if (random.whole(0, 2) == 0) {
+            if (alone == deforming || (happens(deforming) && random.whole(0, 2) == 0)) {
                 const Rings rings =
                     random.whole(0, 1) == 0 ? star(random, 40, 0.4) : with_holes(random, 4);
                 ASSERT_TRUE(context().update_shape(any_of_shapes(), rings).ok());
@@ -227,21 +258,18 @@ protected:
     }
 
 private:
-    /// Gives about a quarter of the instances another pose, and some another filter.
-    void change_some(Random& random, const std::vector<InstanceHandle>& instances, double extent) {
-        for (const InstanceHandle handle : instances) {
-            if (random.whole(0, 3) == 0) {
-                ASSERT_TRUE(world().move(handle, any_pose(random, extent)).ok());
-            }
-            if (random.whole(0, 30) == 0) {
-                const auto bits = static_cast<std::uint32_t>(random.whole(1, 3));
-                ASSERT_TRUE(world().set_filter(handle, bits, 3 - bits / 2).ok());
-            }
-        }
-    }
+    enum Change { adding, moving, filtering, removing, deforming, kinds_of_changes };
 
     std::optional<World> world_;
     std::vector<ShapeHandle> shapes_;
+};
+
+/// What a table of pairs leaves on the device: as many of each as the headers say.
+struct PairContents {
+    HeaderData pair_header;
+    HeaderData point_header;
+    std::vector<PairData> pairs;
+    std::vector<PointData> points;
 };
 
 /// The same with the host's side of the device.
@@ -258,7 +286,31 @@ protected:
 
     test_support::HostGpu& gpu() { return *gpu_; }
 
+    PairContents read(const PairsOnDevice& on_device) {
+        PairContents all;
+        all.pair_header = read(on_device.pairs, on_device.state, all.pairs);
+        all.point_header = read(on_device.points, on_device.state, all.points);
+        return all;
+    }
+
 private:
+    template <class Data>
+    HeaderData read(const ArrayOnDevice& array, const OutputState& state, std::vector<Data>& all) {
+        const auto copy = [&](VkBuffer buffer, VkDeviceSize offset, void* to, std::size_t bytes) {
+            const auto words = gpu().read(buffer, offset, bytes, state);
+            std::memcpy(to, words.data(), bytes);
+        };
+        HeaderData header;
+        copy(array.header.buffer, array.header.offset, &header, sizeof(header));
+        EXPECT_LE(header.count, array.capacity);
+        EXPECT_EQ(array.size, array.capacity * sizeof(Data));
+        all.resize(std::min(header.count, array.capacity));
+        if (!all.empty()) {
+            copy(array.buffer, 0, all.data(), all.size() * sizeof(Data));
+        }
+        return header;
+    }
+
     std::optional<test_support::HostGpu> gpu_;
 };
 

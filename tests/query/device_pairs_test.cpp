@@ -2,10 +2,8 @@
 
 #include <tests/query/device_pairs.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <vector>
 
 namespace nearfield::test {
@@ -13,8 +11,10 @@ namespace {
 
 constexpr std::uint64_t device_pairs_seed = 24000;
 
-/// Penetrations of all pairs of a world that the device finds, compared with those of the CPU.
-class DevicePairs : public DevicePairsTest {};
+// What is particular to a query or to a scene; what all have in common:
+// device_pair_tables_test.cpp.
+
+using DevicePairs = DevicePairsTest;
 
 /// More instances than three levels of boxes hold, sizes from 1/1000 to 10, and one below them all.
 TEST_F(DevicePairs, OfManyInstancesOfAllSizes) {
@@ -59,21 +59,6 @@ TEST_F(DevicePairs, AreFewWhereverTheInstancesGo) {
     EXPECT_NEAR(tables.device.candidates(), few, 2.0);
 }
 
-/// Single precision cannot tell on which side of each other's boundary their corners lie.
-TEST_F(DevicePairs, OfSquaresThatTouchAreNone) {
-    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
-    for (int x = 0; x < 6; ++x) {
-        for (int y = 0; y < 6; ++y) {
-            add(square, {.translation = {x / 3.0 + x, y + y / 3.0}});
-            add(square, {.translation = {x / 3.0 + x + 1.0, y + y / 3.0}});
-        }
-    }
-    Tables<PenetrationQuery> tables({.tolerance = 1e-5, .points = PenetrationPoints::vertices});
-    compare(tables);
-    EXPECT_GT(tables.device.candidates(), 0U);
-    EXPECT_GT(tables.device.left_to_cpu(), 0U);
-}
-
 /// An error is the row of a pair that is asked about: boxes apart by less than the device tells are
 /// none.
 TEST_F(DevicePairs, OfBoxesThatAreApartHaveNoErrors) {
@@ -104,18 +89,7 @@ TEST_F(DevicePairs, OfMoreSamplesThanTheDeviceCounts) {
     EXPECT_EQ(world().update(tables.cpu).code(), StatusCode::too_large);
 }
 
-/// A tolerance that the coordinates of one instance do not resolve is an error of its pairs alone.
-TEST_F(DevicePairs, StateTheErrorsOfTheirPairs) {
-    const ShapeHandle small = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
-    add(small, {});
-    add(small, {.translation = {0.5, 0.5}});
-    add(add_shape(rectangle({-1e9, -1.0}, {1e9, 1.0})), {});
-    Tables<PenetrationQuery> tables({.tolerance = 1e-6, .points = PenetrationPoints::vertices});
-    compare(tables);
-    EXPECT_GT(tables.device.left_to_cpu(), 0U);
-}
-
-/// Likewise of pairs with more samples than any buffer holds.
+/// Pairs with more samples than any buffer holds are errors of their rows.
 TEST_F(DevicePairs, StateTheErrorsOfPairsWithManySamples) {
     const ShapeHandle small = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
     add(small, {});
@@ -126,40 +100,6 @@ TEST_F(DevicePairs, StateTheErrorsOfPairsWithManySamples) {
     Tables<PenetrationQuery> tables({.tolerance = 3e-4, .summary_only = true});
     compare(tables);
     EXPECT_GT(tables.device.left_to_cpu(), 0U);
-}
-
-/// Rows are those of the last update, whatever happens to the world in between.
-TEST_F(DevicePairs, StayAsTheyWere) {
-    const ShapeHandle shape = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
-    const InstanceHandle one = add(shape, {});
-    add(shape, {.translation = {1.5, 0.25}});
-    PairTable table(PenetrationQuery{.tolerance = 0.01}, on_device);
-    ASSERT_TRUE(world().update(table).ok());
-    ASSERT_EQ(table.size(), 2U);
-    const auto before = table.row(0);
-    const std::size_t count = points_of(table, 1).size();
-    ASSERT_TRUE(world().move(one, {.translation = {50.0, 0.0}}).ok());
-    ASSERT_TRUE(context().update_shape(shape, rectangle({-3.0, -3.0}, {3.0, 3.0})).ok());
-    const auto after = table.row(0);
-    ASSERT_TRUE(before.has_value() && after.has_value());
-    EXPECT_EQ(before->count, after->count);
-    EXPECT_EQ(before->deepest.depth, after->deepest.depth);
-    EXPECT_EQ(points_of(table, 1).size(), count);
-    ASSERT_TRUE(world().update(table).ok());
-    EXPECT_EQ(table.size(), 0U);
-}
-
-/// The same instances at the same poses, whose shape alone is another.
-TEST_F(DevicePairs, FollowAShapeThatDeforms) {
-    const ShapeHandle shape = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
-    add(shape, {});
-    add(shape, {.translation = {4.0, 0.25}});
-    PairTable table(PenetrationQuery{.tolerance = 0.01}, on_device);
-    ASSERT_TRUE(world().update(table).ok());
-    EXPECT_EQ(table.size(), 0U);
-    ASSERT_TRUE(context().update_shape(shape, rectangle({-3.0, -3.0}, {3.0, 3.0})).ok());
-    ASSERT_TRUE(world().update(table).ok());
-    EXPECT_EQ(table.size(), 2U);
 }
 
 /// Pairs of the caller's own list: any, some twice, some of an instance with itself.
@@ -215,6 +155,184 @@ TEST_F(DevicePairs, OfAListAreReadByTheHost) {
             << status.message();
     }
     EXPECT_EQ(refused(IntersectionTestQuery{}).code(), StatusCode::invalid_query);
+}
+
+/// Where the sums of coordinates and reach are rounded, both rows of a pair are there, or none.
+TEST_F(DevicePairs, OfBoxesThatAreRoundedAreAtTheReach) {
+    const ShapeHandle bar = add_shape(rectangle({0.0, -1.0}, {2.0, 1.0}));
+    const double quarter = std::numbers::pi / 2.0;
+    for (const double first : {0.0, -3.0}) {
+        const std::vector<InstanceHandle> added{
+            add(bar, {.translation = {first, 0.0}, .angle = quarter}),
+            add(bar, {.translation = {-3.0 - first, 0.0}, .angle = quarter})};
+        compare(SeparationQuery{.tolerance = 0.01}, 1.0);
+        compare(ClosestPointQuery{.tolerance = 0.01}, 1.0);
+        remove(added);
+    }
+}
+
+using DevicePairsThatIntersect = DevicePairsTest;
+
+/// Small shapes in all places of large ones with holes and parts: outside, inside, in a hole, and
+/// across a boundary.
+TEST_F(DevicePairsThatIntersect, OfShapesInHolesAreNone) {
+    for_each_case(device_pairs_seed + 1000, 4, [&](Random& random) {
+        std::vector<InstanceHandle> added;
+        for (const Rings& rings : {with_holes(random, 5), with_holes(random, 40),
+                                   several_parts(random, 4), spiral(2.0, 0.2, 60), pentagram()}) {
+            added.push_back(add(add_shape(scaled_and_moved(rings, 10.0, {})), {}));
+        }
+        const ShapeHandle small = add_shape(scaled_and_moved(star(random, 9, 0.5), 0.05, {}));
+        const ShapeHandle parts =
+            add_shape(scaled_and_moved(several_parts(random, 3), 0.2, {3.0, 0.0}));
+        for (int i = 0; i < 150; ++i) {
+            added.push_back(add(i % 4 == 0 ? parts : small, any_pose(random, 11.0)));
+        }
+        Tables<IntersectionTestQuery> tables(IntersectionTestQuery{});
+        compare(tables);
+        EXPECT_GT(tables.device.size(), 100U);
+        EXPECT_LT(tables.device.left_to_cpu(), 10U);
+        remove(added);
+    });
+}
+
+/// More rings than the device follows for one pair: those that meet nothing are left to the CPU.
+TEST_F(DevicePairsThatIntersect, OfVeryManyRings) {
+    Rings dots;
+    for (int x = 0; x < 60; ++x) {
+        for (int y = 0; y < 60; ++y) {
+            const Vector2 low{1.0 * x, 1.0 * y};
+            dots.push_back(rectangle(low, {low.x + 0.5, low.y + 0.5}).front());
+        }
+    }
+    const ShapeHandle many = add_shape(dots);
+    const ShapeHandle small = add_shape(rectangle({0.0, 0.0}, {0.2, 0.2}));
+    add(many, {});
+    add(small, {.translation = {30.6, 30.6}});
+    add(small, {.translation = {20.6, 30.1}});
+    add(small, {.translation = {30.1, 30.1}});
+    add(small, {.translation = {10.4, 50.4}, .angle = 0.2});
+    Tables<IntersectionTestQuery> tables(IntersectionTestQuery{});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 2U);
+    EXPECT_GT(tables.device.left_to_cpu(), 0U);
+}
+
+/// An edge beside so many others that the device gives up before it finds the one that it crosses.
+TEST_F(DevicePairsThatIntersect, OfEdgesBesideVeryMany) {
+    Rings dots;
+    for (int x = 0; x < 24; ++x) {
+        for (int y = 0; y < 24; ++y) {
+            const Vector2 low{1.0 * x, 1.0 * y};
+            dots.push_back(rectangle(low, {low.x + 0.3, low.y + 0.3}).front());
+        }
+    }
+    const ShapeHandle beside = add_shape(dots);
+    dots.push_back(rectangle({45.0, 45.0}, {46.0, 47.0}).front());
+    const ShapeHandle across = add_shape(dots);
+    add(add_shape({{{-1.0, -0.505}, {60.0, 60.495}, {60.0, 60.505}, {-1.0, -0.495}}}), {});
+    const InstanceHandle instance = add(beside, {});
+    Tables<IntersectionTestQuery> tables(IntersectionTestQuery{});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 0U);
+    EXPECT_EQ(tables.device.candidates(), 1U);
+    ASSERT_TRUE(world().remove(instance).ok());
+    add(across, {});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 1U);
+    EXPECT_EQ(tables.device.left_to_cpu(), 1U);
+}
+
+/// Boundaries whose boxes do not tell their edges apart.
+TEST_F(DevicePairsThatIntersect, OfTangles) {
+    for_each_case(device_pairs_seed + 4000, 3, [&](Random& random) {
+        std::vector<InstanceHandle> added;
+        for (const int n : {30, 300, 3000}) {
+            const ShapeHandle shape = add_shape(tangle(random, n));
+            const ShapeHandle other = add_shape(spiky(random, n));
+            for (int i = 0; i < 3; ++i) {
+                added.push_back(add(shape, any_pose(random, 3.0)));
+                added.push_back(add(other, any_pose(random, 3.0)));
+            }
+        }
+        compare(IntersectionTestQuery{});
+        remove(added);
+    });
+}
+
+using DevicePairsInContact = DevicePairsTest;
+
+/// Edges shorter than a cell have no sample: shapes intersect without a contact, by their
+/// crossings.
+TEST_F(DevicePairsInContact, OfBoundariesWithoutSamples) {
+    const ShapeHandle circle = add_shape(regular(64));
+    for (int i = 0; i < 24; ++i) {
+        const double angle = 0.1 * i;
+        add(circle, {.translation = {10.0 * i, 0.0}});
+        add(circle, {.translation = {10.0 * i + 1.95 * std::cos(angle), 1.95 * std::sin(angle)}});
+    }
+    Tables<ContactQuery> tables({.tolerance = 0.5, .contact_distance = 0.01, .summary_only = true});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 48U);
+}
+
+/// More points than the loops of a shader may take turns, in both directions together.
+TEST_F(DevicePairsInContact, OfManyPoints) {
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    add(square, {});
+    add(square, {.translation = {0.001, 0.001}});  // 40,000 samples each, all of them contacts
+    for (int i = 0; i < 6; ++i) {
+        add(square, {.translation = {0.999, -0.9 + 0.3 * i}});
+    }
+    Tables<ContactQuery> tables(
+        {.tolerance = 7e-5, .contact_distance = 0.005, .summary_only = true});
+    compare(tables);
+    EXPECT_GT(tables.device.size(), 10U);
+}
+
+/// Some drivers add up the loops of neighbouring threads: one compares many points, another follows
+/// rays from many rings.
+TEST_F(DevicePairsInContact, OfManyPointsBesideManyRings) {
+    const auto dots = [](double offset) {
+        Rings rings;
+        for (int i = 0; i < 38 * 38; ++i) {
+            const Vector2 low{i % 38 / 38.0 + offset, i / 38 / 38.0 + offset};
+            rings.push_back(rectangle(low, {low.x + 0.005, low.y + 0.005}).front());
+        }
+        return rings;
+    };
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    add(square, {});
+    add(square, {.translation = {0.0005, 0.0005}});  // 19,000 samples each
+    add(add_shape(dots(0.0)), {.translation = {5.0, 5.0}});
+    add(add_shape(dots(0.012)), {.translation = {5.0, 5.0}});
+    add(square, {.translation = {5.5, 5.5}});
+    Tables<ContactQuery> tables(
+        {.tolerance = 1.5e-4, .contact_distance = 0.002, .summary_only = true});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 6U);
+}
+
+TEST_F(DevicePairsInContact, HaveAnalyticNormalsAlone) {
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    add(square, {});
+    add(square, {.translation = {0.5, 0.5}});
+    PairTable table(
+        ContactQuery{
+            .tolerance = 0.1, .contact_distance = 0.1, .normals = ContactNormals::gradient},
+        on_device);
+    EXPECT_EQ(world().update(table).code(), StatusCode::invalid_query);
+    PairTable without(ContactQuery{.tolerance = 0.1, .contact_distance = 0.1, .summary_only = true},
+                      on_device);
+    ASSERT_TRUE(world().update(without).ok());
+    for (const auto& row : without.rows()) {
+        EXPECT_TRUE(without.points(row).empty());
+        EXPECT_FALSE(without.manifold(row).empty());
+    }
+    PairRow<ContactQuery> none;
+    none.index = 2;
+    EXPECT_TRUE(without.manifold(none).empty());
+    EXPECT_EQ(without.row(2).error().code(), StatusCode::invalid_query);
 }
 
 }  // namespace

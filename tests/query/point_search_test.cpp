@@ -116,16 +116,6 @@ private:
     }
 };
 
-TEST_F(PointSearch, HoldsForRandomPairs) {
-    for_each_case(point_search_seed, 12, [&](Random& random) {
-        std::vector<Pair> pairs;
-        for (int i = 0; i < 8; ++i) {
-            pairs.push_back(any_pair(random));
-        }
-        check(context(), pairs);
-    });
-}
-
 // The tolerance is so small against the shapes that single precision cannot name the feature.
 TEST_F(PointSearch, HoldsWhereSinglePrecisionLeavesDoubt) {
     for_each_case(point_search_seed + 1000, 20, [&](Random& random) {
@@ -356,28 +346,6 @@ TEST_F(PointSearch, HoldsForManyBlocks) {
     query.technique = Technique::cpu;
     EXPECT_EQ(found, run_alone(context(), query).count);
     EXPECT_GT(found, 100'000U);
-}
-
-// What is kept of shapes that change, grow and shrink never shows.
-TEST_F(PointSearch, KeepsNothingOfFormerShapes) {
-    Random random(point_search_seed + 2);
-    const auto any = [&random] { return star(random, random.whole(3, 200), 0.3); };
-    const Expected<ShapeHandle> a = context().add_shape(any());
-    const Expected<ShapeHandle> b = context().add_shape(any());
-    ASSERT_TRUE(a.has_value() && b.has_value());
-    for (int frame = 0; frame < 40; ++frame) {
-        const Pair pair{{"A", any()}, {"B", any()}, {{0.3, 0.1}, 0.2}, {}, 0.02};
-        ASSERT_TRUE(context().update_shape(*a, pair.a.rings).ok());
-        ASSERT_TRUE(context().update_shape(*b, pair.b.rings).ok());
-        const PlacedPair fresh(context(), pair, Technique::compute);
-        PenetrationQuery query = fresh.penetration();
-        const std::vector<double> expected = numbers(context(), query);
-        query.a.shape = *a;
-        query.b.shape = *b;
-        EXPECT_EQ(numbers(context(), query), expected) << "frame " << frame;
-    }
-    EXPECT_TRUE(context().remove_shape(*a).ok());
-    EXPECT_TRUE(context().remove_shape(*b).ok());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <tests/query/field_laws.hpp>
+#include <tests/support/numbers.hpp>
 #include <tests/support/outlines.hpp>
 
 #include <algorithm>
@@ -23,16 +24,6 @@ protected:
                 {random.between(box.min.x, box.max.x), random.between(box.min.y, box.max.y)});
         }
         return points;
-    }
-
-    static void expect_same(const FieldPoint& one, const FieldPoint& other, std::size_t index) {
-        EXPECT_EQ(one.position, other.position) << index;
-        EXPECT_EQ(one.distance, other.distance) << index;
-        EXPECT_EQ(one.error_bound, other.error_bound) << index;
-        EXPECT_EQ(one.inside, other.inside) << index;
-        EXPECT_EQ(one.gradient, other.gradient) << index;
-        EXPECT_EQ(one.feature.index, other.feature.index) << index;
-        EXPECT_EQ(one.unique, other.unique) << index;
     }
 };
 
@@ -222,7 +213,7 @@ TEST_F(Reconstruction, CellsAloneGiveWhatTheWholeImageGives) {
         ASSERT_TRUE(alone.status.ok()) << alone.status.text();
         EXPECT_TRUE(alone.values.empty());
         for (std::size_t k = 0; k < points.size(); ++k) {
-            expect_same(whole.points[k], alone.points[k], k);
+            EXPECT_EQ(numbers_of(whole.points[k]), numbers_of(alone.points[k])) << k;
             // The image gives the same value if it contains all four cells.
             const double x = (points[k].x - whole.origin.x) / whole.cell - 0.5;
             const double y = (points[k].y - whole.origin.y) / whole.cell - 0.5;

@@ -12,15 +12,9 @@ TEST_F(Resident, FieldImagesHoldWhatComesBack) {
     for_each_case(resident_field_seed, 6, [&](Random& random) {
         const PlacedPair pair(context(), any_pair(random), Technique::compute);
         SCOPED_TRACE(describe(pair.pair()));
-        FieldOnDevice field;
-        FieldContents contents;
-        const DistanceFieldResult result =
-            ask(context(), field_of(pair, Technique::compute), [&](const FieldOnDevice& resident) {
-                field = resident;
-                contents = contents_of(resident);
-            });
-        EXPECT_EQ(result.technique, Technique::compute);
-        check_field(pair, field, contents, result);
+        const auto kept = keep(context(), field_of(pair, Technique::compute));
+        EXPECT_EQ(kept.result.technique, Technique::compute);
+        check_field(pair, kept);
     });
 }
 
@@ -36,14 +30,7 @@ TEST_F(Resident, FieldsOfEveryFamilyAndOfSeveralTilesWithHalos) {
             query.gradient = GradientMethod::central_differences;
             query.gradients = true;
         }
-        FieldOnDevice field;
-        FieldContents contents;
-        const DistanceFieldResult result =
-            ask(context(), query, [&](const FieldOnDevice& resident) {
-                field = resident;
-                contents = contents_of(resident);
-            });
-        check_field(pair, field, contents, result);
+        check_field(pair, keep(context(), query));
     }
 }
 
@@ -54,25 +41,17 @@ TEST_F(Resident, FieldOfDistancesAlone) {
         SCOPED_TRACE(describe(pair.pair()));
         DistanceFieldQuery query = field_of(pair, Technique::compute);
         query.features = false;
-        std::vector<float> with_features;
-        ask(context(), query, [&](const FieldOnDevice& resident) {
-            EXPECT_NE(resident.feature.image, VkImage{VK_NULL_HANDLE});
-            with_features = contents_of(resident).values;
-        });
+        const auto both = keep(context(), query);
+        EXPECT_NE(both.output.feature.image, VkImage{VK_NULL_HANDLE});
+        const std::vector<float>& with_features = both.contents.values;
         query.features_on_device = false;
         for (const bool returns_features : {false, true}) {
             query.features = returns_features;
-            FieldContents contents;
-            VkExtent2D extent{};
-            const DistanceFieldResult result =
-                ask(context(), query, [&](const FieldOnDevice& resident) {
-                    EXPECT_EQ(resident.feature.image, VkImage{VK_NULL_HANDLE});
-                    EXPECT_EQ(resident.feature.view, VkImageView{VK_NULL_HANDLE});
-                    extent = resident.image_extent;
-                    contents = contents_of(resident);
-                });
+            const auto [field, contents, result] = keep(context(), query);
             EXPECT_TRUE(result.status.ok()) << result.status.text();
-            EXPECT_GE(extent.width, result.width);
+            EXPECT_EQ(field.feature.image, VkImage{VK_NULL_HANDLE});
+            EXPECT_EQ(field.feature.view, VkImageView{VK_NULL_HANDLE});
+            EXPECT_GE(field.image_extent.width, result.width);
             EXPECT_EQ(result.features.size(), returns_features ? result.values.size() : 0);
             EXPECT_EQ(contents.values, result.values);
             ASSERT_EQ(contents.values.size(), with_features.size());
@@ -99,16 +78,13 @@ TEST_F(Resident, FieldOfManyRoundsOfWhichNothingComesBack) {
     query.rectangle = Rectangle{{-1.2, -1.2}, {1.2, 0.4}};
     const DistanceFieldResult expected = run_alone(*made, query);
     query.values = query.features = false;
-    FieldOnDevice field;
-    FieldContents contents;
-    const DistanceFieldResult result = ask(*made, query, [&](const FieldOnDevice& resident) {
-        field = resident;
-        contents = contents_of(resident);
-    });
-    EXPECT_TRUE(result.status.ok()) << result.status.text();
-    EXPECT_TRUE(result.values.empty() && result.features.empty() && result.unique.empty());
-    EXPECT_GT(std::size_t{field.width} * field.height, 512U * 256U);
-    check_field(pair, field, contents, expected);
+    auto kept = keep(*made, query);
+    EXPECT_TRUE(kept.result.status.ok()) << kept.result.status.text();
+    EXPECT_TRUE(kept.result.values.empty() && kept.result.features.empty() &&
+                kept.result.unique.empty());
+    EXPECT_GT(std::size_t{kept.output.width} * kept.output.height, 512U * 256U);
+    kept.result = expected;
+    check_field(pair, kept);
 }
 
 }  // namespace

@@ -58,11 +58,12 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
         const Expected<FieldOnDevice> field = made->on_device(former.ticket, former.field);
         const Expected<PointsOnDevice> records = made->on_device(former.ticket, former.depths);
         ASSERT_TRUE(field.has_value() && records.has_value());
-        const FieldContents contents = contents_of(*field);
+        Kept<DistanceFieldQuery> kept{*field, contents_of(*field), {}};
         const RecordsContents depths = contents_of(*records);
         Results results;
         ASSERT_TRUE(made->collect(former.ticket, results).ok());
-        check_field(pair, *field, contents, results[former.field]);
+        kept.result = results[former.field];
+        check_field(pair, kept);
         ASSERT_GT(depths.records.size(), 10U);
         EXPECT_EQ(depths.records.size(), results[former.depths].points.size());
         former = next;
@@ -125,18 +126,13 @@ TEST_F(Resident, ImagesOnlyGrow) {
     VkImage former = VK_NULL_HANDLE;
     for (const double width : {1.0, 0.5, 1.0, 1.5}) {
         query.rectangle = Rectangle{{-0.5, -0.5}, {-0.5 + width, 0.5}};
-        FieldOnDevice field;
-        FieldContents contents;
-        const DistanceFieldResult result = ask(*made, query, [&](const FieldOnDevice& resident) {
-            field = resident;
-            contents = contents_of(resident);
-        });
-        check_field(pair, field, contents, result);
-        EXPECT_GE(field.image_extent.width, field.width);
+        const auto kept = keep(*made, query);
+        check_field(pair, kept);
+        EXPECT_GE(kept.output.image_extent.width, kept.output.width);
         if (former != VK_NULL_HANDLE && width <= 1.0) {
-            EXPECT_EQ(field.signed_distance.image, former);
+            EXPECT_EQ(kept.output.signed_distance.image, former);
         }
-        former = field.signed_distance.image;
+        former = kept.output.signed_distance.image;
     }
 }
 

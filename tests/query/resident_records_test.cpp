@@ -130,13 +130,10 @@ TEST_F(Resident, RecordBoundCoversTheExtentOfBothShapes) {
     needle.b = {"square", {{{-1.9, -1.0}, {0.1, -1.0}, {0.1, 1.0}, {-1.9, 1.0}}}};
     needle.tolerance = 0.01;
     const PlacedPair pair(context(), needle, Technique::compute);
-    PenetrationQuery query = pair.penetration(PenetrationPoints::vertices);
-    query.on_device = true;
-    const PenetrationResult result = ask(context(), query, [](const PointsOnDevice& resident) {
-        EXPECT_GE(resident.error_bound, std::ldexp(101.0, -18));
-        EXPECT_LE(resident.error_bound, std::ldexp(110.0, -17));
-    });
-    EXPECT_EQ(result.count, 1U);
+    const auto kept = keep(context(), pair.penetration(PenetrationPoints::vertices));
+    EXPECT_GE(kept.output.error_bound, std::ldexp(101.0, -18));
+    EXPECT_LE(kept.output.error_bound, std::ldexp(110.0, -17));
+    EXPECT_EQ(kept.result.count, 1U);
 }
 
 TEST_F(Resident, PenetrationRecordsAreTheCpusWithinTheBound) {
@@ -145,14 +142,7 @@ TEST_F(Resident, PenetrationRecordsAreTheCpusWithinTheBound) {
     for_each_case(record_seed + 100, 12, [&](Random& random) {
         const PlacedPair pair(context(), any_pair(random), Technique::compute);
         SCOPED_TRACE(describe(pair.pair()));
-        PenetrationQuery query = pair.penetration();
-        query.on_device = true;
-        PointsOnDevice resident;
-        RecordsContents contents;
-        const PenetrationResult result = ask(context(), query, [&](const PointsOnDevice& records) {
-            resident = records;
-            contents = contents_of(records);
-        });
+        const auto [resident, contents, result] = keep(context(), pair.penetration());
         check_summary(resident, contents);
         const double touching = std::ldexp(result.cell, -15);
         const RecordComparison comparison = compare_records(
@@ -173,14 +163,8 @@ TEST_F(Resident, ContactRecordsAreTheCpusWithinTheBound) {
     for_each_case(record_seed + 200, 28, [&](Random& random) {
         const PlacedPair pair(context(), any_pair(random), Technique::compute);
         SCOPED_TRACE(describe(pair.pair()));
-        ContactQuery query = pair.contacts(1.5 * pair.tolerance());
-        query.on_device = true;
-        PointsOnDevice resident;
-        RecordsContents contents;
-        const ContactResult result = ask(context(), query, [&](const PointsOnDevice& records) {
-            resident = records;
-            contents = contents_of(records);
-        });
+        const ContactQuery query = pair.contacts(1.5 * pair.tolerance());
+        const auto [resident, contents, result] = keep(context(), query);
         check_summary(resident, contents);
         const RecordComparison comparison =
             compare_records(pair, resident, contents, result.points, [&](double distance) {
@@ -213,11 +197,7 @@ TEST_F(Resident, NormalsAtCornersPointOut) {
             std::reverse(corner.b.begin(), corner.b.end());
             const PlacedPair pair(context(), {{"A", {corner.a}}, {"B", {corner.b}}, {}, {}, 0.05},
                                   Technique::compute);
-            ContactQuery query = pair.contacts(0.1);
-            query.on_device = true;
-            RecordsContents contents;
-            ask(context(), query,
-                [&](const PointsOnDevice& records) { contents = contents_of(records); });
+            const RecordsContents contents = keep(context(), pair.contacts(0.1)).contents;
             const auto at_corner = std::find_if(
                 contents.records.begin(), contents.records.end(), [](const auto& record) {
                     return record.on == Side::a && record.distance < 1e-5 &&
@@ -288,11 +268,7 @@ TEST_F(Resident, WhereNothingMeetsTheSummaryIsEmpty) {
                      {{5.0, 0.0}, 0.0},
                      0.05};
     const PlacedPair pair(context(), apart, Technique::compute);
-    PenetrationQuery query = pair.penetration();
-    query.on_device = true;
-    RecordsContents contents;
-    contents.summary.count = 7;
-    ask(context(), query, [&](const PointsOnDevice& records) { contents = contents_of(records); });
+    const RecordsContents contents = keep(context(), pair.penetration()).contents;
     EXPECT_EQ(contents.summary.count, 0U);
     EXPECT_EQ(contents.summary.deepest, no_point);
 }

@@ -20,8 +20,8 @@ bool same_place(const oracle::ShapeOracle& shape, const Feature& a, const Featur
     return distance_between(place(a), place(b)) <= allowed;
 }
 
-void check_field(const PlacedPair& pair, const FieldOnDevice& field, const FieldContents& contents,
-                 const DistanceFieldResult& result) {
+void check_field(const PlacedPair& pair, const Kept<DistanceFieldQuery>& kept) {
+    const auto& [field, contents, result] = kept;
     ASSERT_TRUE(result.status.ok()) << result.status.text();
     ASSERT_EQ(field.width, result.width);
     ASSERT_EQ(field.height, result.height);

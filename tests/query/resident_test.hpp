@@ -7,8 +7,22 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 namespace nearfield::test {
+
+/// What a query leaves on the device, and its result.
+template <class Query>
+struct Kept {
+    using Output =
+        std::decay_t<decltype(*std::declval<Context&>().on_device(Ticket(), QueryHandle<Query>()))>;
+    using Contents = decltype(std::declval<ResidentReader&>().read(std::declval<Output&>()));
+
+    Output output;
+    Contents contents;
+    typename Query::Result result;
+};
 
 /// Tests of resident outputs.
 class Resident : public QueryTest {
@@ -41,9 +55,22 @@ protected:
         return results.results.empty() ? typename Query::Result() : results[handle];
     }
 
-    FieldContents contents_of(const FieldOnDevice& field) { return reader().read(field); }
-    RecordsContents contents_of(const PointsOnDevice& records) { return reader().read(records); }
-    SamplesContents contents_of(const SamplesOnDevice& samples) { return reader().read(samples); }
+    template <class Output>
+    auto contents_of(const Output& output) {
+        return reader().read(output);
+    }
+
+    /// Asks, and keeps what stays, which is read before the result is collected.
+    template <class Query>
+    Kept<Query> keep(Context& context, Query query) {
+        query.on_device = true;
+        Kept<Query> kept;
+        kept.result = ask(context, query, [&](const auto& output) {
+            kept.output = output;
+            kept.contents = contents_of(output);
+        });
+        return kept;
+    }
 
 private:
     std::unique_ptr<ResidentReader> reader_;
@@ -58,7 +85,6 @@ private:
 /// A field of part of the pair's B with both sides; it stays on the device.
 [[nodiscard]] DistanceFieldQuery field_of(const PlacedPair& pair, Technique technique);
 /// The resident output must equal the result that was read back.
-void check_field(const PlacedPair& pair, const FieldOnDevice& field, const FieldContents& contents,
-                 const DistanceFieldResult& result);
+void check_field(const PlacedPair& pair, const Kept<DistanceFieldQuery>& kept);
 
 }  // namespace nearfield::test

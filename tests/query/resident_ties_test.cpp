@@ -38,11 +38,8 @@ Deepest deepest_of(const RecordsContents& contents) {
 class ResidentTies : public Resident {
 protected:
     template <class Query>
-    void expect_the_first(Query query) {
-        query.on_device = true;
-        RecordsContents contents;
-        ask(context(), query,
-            [&](const PointsOnDevice& records) { contents = contents_of(records); });
+    void expect_the_first(const Query& query) {
+        const RecordsContents contents = keep(context(), query).contents;
         const Deepest deepest = deepest_of(contents);
         // Or this would test nothing.
         EXPECT_GT(deepest.count, points_per_block);

@@ -10,6 +10,7 @@ namespace nearfield::test {
 
 std::uint64_t SteadyStateTest::allocations_below = 0;
 std::vector<std::string> SteadyStateTest::created;
+int SteadyStateTest::waits_and_submissions = 0;
 
 namespace {
 
@@ -58,6 +59,9 @@ void SteadyStateTest::SetUp() {
                         allocations_below += call.allocations;
                         if (call.makes() || call.destroys() || call.name.starts_with("vkMap")) {
                             created.emplace_back(call.name);
+                        }
+                        if (call.name.starts_with("vkWait") || call.name == "vkQueueSubmit") {
+                            ++waits_and_submissions;
                         }
                     }));
     Expected<Context> made = Context::create(loader_->host(), on_demand({.timestamps = true}));

@@ -34,6 +34,7 @@ protected:
             ASSERT_TRUE(frame(i)) << "frame " << i;
         }
         created.clear();
+        waits_and_submissions = 0;
         allocations_below = 0;
         const std::uint64_t before = test_support::allocation_count_of_this_thread();
         int failures = 0;
@@ -58,6 +59,7 @@ protected:
 
     static std::uint64_t allocations_below;
     static std::vector<std::string> created;  ///< entry points that create or destroy objects
+    static int waits_and_submissions;
 
 private:
     std::optional<test_support::FakeLoader> loader_;

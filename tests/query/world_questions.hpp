@@ -35,25 +35,6 @@ inline const WorldOptions by_device{.technique = Technique::compute};
 /// Worlds that are asked, and answers that are compared with those of the CPU bit for bit.
 class WorldQuestionsTest : public DevicePairsTest {
 protected:
-    static void expect_equal(const RayHit& found, const RayHit& expected) {
-        EXPECT_EQ(found.instance, expected.instance);
-        EXPECT_EQ(found.parameter, expected.parameter);
-        EXPECT_EQ(found.error_bound, expected.error_bound);
-        EXPECT_EQ(found.point, expected.point);
-        EXPECT_EQ(found.normal, expected.normal);
-        EXPECT_EQ(found.edge, expected.edge);
-    }
-    static void expect_equal(const NearestHit& found, const NearestHit& expected) {
-        EXPECT_EQ(found.instance, expected.instance);
-        EXPECT_EQ(found.distance, expected.distance);
-        EXPECT_EQ(found.error_bound, expected.error_bound);
-        EXPECT_EQ(found.nearest, expected.nearest);
-        EXPECT_EQ(found.feature.kind, expected.feature.kind);
-        EXPECT_EQ(found.feature.index, expected.feature.index);
-    }
-    static void expect_equal(std::uint8_t found, std::uint8_t expected) {
-        EXPECT_EQ(found, expected);
-    }
     static bool is_met(std::uint8_t answer) { return answer != 0; }
     template <class Hit>
     static bool is_met(const Hit& hit) {
@@ -67,7 +48,7 @@ protected:
         EXPECT_EQ(found.size(), expected.size());
         for (std::size_t i = 0; i < expected.size() && !HasFailure(); ++i) {
             SCOPED_TRACE("question " + std::to_string(i));
-            expect_equal(found[i], expected[i]);
+            EXPECT_EQ(numbers_of(found[i]), numbers_of(expected[i]));
             met += is_met(expected[i]) ? 1U : 0U;
         }
         return met;

@@ -33,59 +33,6 @@ TEST_F(RaysByDevice, PastVertices) {
     });
 }
 
-/// Against the edges of all instances, one after the other, in extended precision.
-TEST_F(RaysByDevice, HitWhatIsFirst) {
-    using Wide = long double;
-    struct WideVector {
-        Wide x, y;
-    };
-    const auto cross = [](const WideVector& a, const WideVector& b) {
-        return a.x * b.y - a.y * b.x;
-    };
-    Random random(39000);
-    const Rings rings = star(random, 20, 0.5);
-    const ShapeHandle shape = add_shape(rings);
-    std::vector<Pose> poses;
-    std::vector<InstanceHandle> handles;
-    for (int i = 0; i < 60; ++i) {
-        poses.push_back(any_pose(random, 8.0));
-        handles.push_back(add(shape, poses.back()));
-    }
-    const std::vector<Segment> segments = some_segments(random, 500, 9.0);
-    std::vector<RayHit> hits(segments.size());
-    ASSERT_TRUE(world().cast_rays(segments, hits, by_device).ok());
-    for (std::size_t k = 0; k < segments.size(); ++k) {
-        const Segment& segment = segments[k];
-        const WideVector way{static_cast<Wide>(segment.to.x) - segment.from.x,
-                             static_cast<Wide>(segment.to.y) - segment.from.y};
-        Wide first = 2.0L;
-        for (const Pose& pose : poses) {
-            const Wide cosine = std::cos(static_cast<Wide>(pose.angle));
-            const Wide sine = std::sin(static_cast<Wide>(pose.angle));
-            const auto placed = [&](const Vector2& v) {
-                return WideVector{cosine * v.x - sine * v.y + pose.translation.x - segment.from.x,
-                                  sine * v.x + cosine * v.y + pose.translation.y - segment.from.y};
-            };
-            for (std::size_t i = 0; i < rings[0].size(); ++i) {
-                const WideVector a = placed(rings[0][i]);
-                const WideVector b = placed(rings[0][(i + 1) % rings[0].size()]);
-                const WideVector along{b.x - a.x, b.y - a.y};
-                const Wide t = cross(a, along) / cross(way, along);
-                const Wide s = cross(a, way) / cross(way, along);
-                first =
-                    t >= 0.0L && t <= 1.0L && s >= 0.0L && s <= 1.0L ? std::min(first, t) : first;
-            }
-        }
-        if (first <= 1.0L) {
-            const Wide length = std::hypot(way.x, way.y);
-            EXPECT_NEAR(static_cast<double>(hits[k].parameter * length),
-                        static_cast<double>(first * length), 1e-9);
-        } else {
-            EXPECT_EQ(hits[k].instance, InstanceHandle{});
-        }
-    }
-}
-
 /// Many edges at one vertex.
 TEST_F(RaysByDevice, LeaveToTheCpuWhatTheyCannotTell) {
     const ShapeHandle fan = add_shape({{{0.0, 0.0}, {1.0, 0.1}, {1.0, 0.2}},
@@ -143,50 +90,6 @@ TEST_F(PointsByDevice, CountUpToTheLargestDistanceAlsoInside) {
     }
 }
 
-/// Against the edges of all instances, one after the other, in extended precision.
-TEST_F(PointsByDevice, AreAsNearAsTheySay) {
-    using Wide = long double;
-    Random random(40000);
-    const Rings rings = star(random, 20, 0.5);
-    const ShapeHandle shape = add_shape(rings);
-    std::vector<Pose> poses;
-    for (int i = 0; i < 60; ++i) {
-        poses.push_back(any_pose(random, 8.0));
-        add(shape, poses.back());
-    }
-    const std::vector<Vector2> points = some_points(random, 500, 9.0);
-    std::vector<NearestHit> hits(points.size());
-    ASSERT_TRUE(world().find_nearest({}, points, hits, by_device).ok());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        Wide least = infinity;
-        for (const Pose& pose : poses) {
-            const Wide cosine = std::cos(static_cast<Wide>(pose.angle));
-            const Wide sine = std::sin(static_cast<Wide>(pose.angle));
-            // The point in coordinates of the shape.
-            const Wide dx = static_cast<Wide>(points[k].x) - pose.translation.x;
-            const Wide dy = static_cast<Wide>(points[k].y) - pose.translation.y;
-            const Wide x = cosine * dx + sine * dy;
-            const Wide y = cosine * dy - sine * dx;
-            Wide apart = infinity;
-            bool is_inside = false;
-            for (std::size_t i = 0; i < rings[0].size(); ++i) {
-                const Vector2& a = rings[0][i];
-                const Vector2& b = rings[0][(i + 1) % rings[0].size()];
-                const Wide ex = static_cast<Wide>(b.x) - a.x;
-                const Wide ey = static_cast<Wide>(b.y) - a.y;
-                const Wide t =
-                    std::clamp(((x - a.x) * ex + (y - a.y) * ey) / (ex * ex + ey * ey), 0.0L, 1.0L);
-                apart = std::min(apart, std::hypot(a.x + t * ex - x, a.y + t * ey - y));
-                if ((a.y > y) != (b.y > y)) {
-                    is_inside = is_inside != (x < a.x + (y - a.y) / ey * ex);
-                }
-            }
-            least = std::min(least, is_inside ? -apart : apart);
-        }
-        EXPECT_NEAR(hits[k].distance, static_cast<double>(least), hits[k].error_bound);
-    }
-}
-
 /// Several instances at the same place.
 TEST_F(PointsByDevice, LeaveToTheCpuWhatTheyCannotTell) {
     const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
@@ -228,17 +131,6 @@ TEST_F(PosesByDevice, WithinEachOther) {
         compare(QuestionKind::poses, {.poses = some_poses(random, 500, 6.0), .shape = shape});
         EXPECT_LT(request_.left_to_cpu(), 10U);
     }
-}
-
-TEST_F(PosesByDevice, OfAShapeThatDeforms) {
-    for_each_case(36000, 2, [&](Random& random) {
-        const ShapeHandle shape = add_shape(star(random, 15, 0.4));
-        run_history(random, {.steps = 10, .instances = 150, .extent = 60.0}, [&] {
-            compare(QuestionKind::poses, {.poses = some_poses(random, 200, 60.0), .shape = shape});
-            ASSERT_TRUE(context().update_shape(shape, star(random, 16, 0.4)).ok());
-            compare(QuestionKind::poses, {.poses = some_poses(random, 50, 60.0), .shape = shape});
-        });
-    });
 }
 
 TEST_F(PosesByDevice, OfAllSizesFarFromTheOrigin) {

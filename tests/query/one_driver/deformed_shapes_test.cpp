@@ -49,25 +49,31 @@ protected:
 };
 
 TEST_F(DeformedShapes, AreAnsweredAsFreshOnesFromBatchToBatch) {
+    Context kept = *Context::create(host_device(), on_demand());
+    const ShapeHandle a = *kept.add_shape(wavy(200, 0.0));
+    const ShapeHandle b = *kept.add_shape(wavy(200, 1.0));
+    std::vector<double> last;
+    const auto check = [&](int edges, double phase) {
+        SCOPED_TRACE(std::to_string(edges) + " edges, phase " + std::to_string(phase));
+        const Rings next_a = wavy(edges, phase);
+        const Rings next_b = wavy(edges, 1.0 + phase);
+        ASSERT_TRUE(kept.update_shape(a, next_a).ok());
+        ASSERT_TRUE(kept.update_shape(b, next_b).ok());
+        const std::vector<double> found = answers(kept, a, b);
+        EXPECT_TRUE(found == of_fresh_shapes(next_a, next_b));
+        EXPECT_TRUE(found != last);
+        last = found;
+    };
     // Tiles see few edges as a whole, many by windows.
     for (const int edges : {200, 600}) {
-        SCOPED_TRACE(std::to_string(edges) + " edges");
-        Context kept = *Context::create(host_device(), on_demand());
-        const ShapeHandle a = *kept.add_shape(wavy(edges, 0.0));
-        const ShapeHandle b = *kept.add_shape(wavy(edges, 1.0));
-        std::vector<double> last;
+        // As many vertices as before: nothing but their places tells old from new.
         for (const double phase : {0.0, 0.5, 2.0}) {
-            SCOPED_TRACE("phase " + std::to_string(phase));
-            // As many vertices as before: nothing but their places tells old from new.
-            const Rings next_a = wavy(edges, phase);
-            const Rings next_b = wavy(edges, 1.0 + phase);
-            ASSERT_TRUE(kept.update_shape(a, next_a).ok());
-            ASSERT_TRUE(kept.update_shape(b, next_b).ok());
-            const std::vector<double> found = answers(kept, a, b);
-            EXPECT_TRUE(found == of_fresh_shapes(next_a, next_b));
-            EXPECT_TRUE(found != last);
-            last = found;
+            check(edges, phase);
         }
+    }
+    // They grow and shrink.
+    for (const int edges : {5, 3000, 40, 7}) {
+        check(edges, 0.3);
     }
 }
 

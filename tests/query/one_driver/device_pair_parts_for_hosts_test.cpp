@@ -13,34 +13,7 @@ namespace {
 constexpr std::uint64_t device_pair_parts_for_hosts_seed = 32000;
 constexpr std::uint32_t little = 1U << 20U;
 
-class DevicePairPartsForHosts : public DevicePairPartsTest {
-protected:
-    /// What stays on the device: as many of each as the headers say.
-    struct Residents {
-        std::vector<PairData> pairs;
-        std::vector<PointData> records;
-    };
-    Residents read(const PairsOnDevice& resident) {
-        Residents all;
-        read(resident.pairs, resident.state, all.pairs);
-        read(resident.points, resident.state, all.records);
-        return all;
-    }
-
-private:
-    template <class Data>
-    void read(const ArrayOnDevice& array, const OutputState& state, std::vector<Data>& all) {
-        const auto header_words =
-            gpu().read(array.header.buffer, array.header.offset, sizeof(HeaderData), state);
-        HeaderData header;
-        std::memcpy(static_cast<void*>(&header), header_words.data(), sizeof(header));
-        EXPECT_EQ(header.overflow, 0U);
-        ASSERT_LE(header.count, array.capacity);
-        all.resize(header.count);
-        const auto words = gpu().read(array.buffer, 0, all.size() * sizeof(Data), state);
-        std::memcpy(static_cast<void*>(all.data()), words.data(), all.size() * sizeof(Data));
-    }
-};
+using DevicePairPartsForHosts = DevicePairPartsTest;
 
 /// Where two edges are as near, either may be the nearest: points that are searched together
 /// differ.
@@ -76,9 +49,9 @@ TEST_F(DevicePairPartsForHosts, AreRecordedWithRoomForWhatTheyFound) {
     }
     ASSERT_TRUE(status.ok()) << status.text();
     EXPECT_GE(calls_of_parts.dispatches / dispatches, 3);
-    EXPECT_TRUE(numbers_of(in_parts) == numbers_of(whole));
+    EXPECT_TRUE(numbers_of_parts(in_parts) == numbers_of_parts(whole));
     ASSERT_TRUE(in_parts.collect().ok());
-    EXPECT_TRUE(numbers_of(in_parts) == numbers_of(whole));
+    EXPECT_TRUE(numbers_of_parts(in_parts) == numbers_of_parts(whole));
 }
 
 /// The parts follow one another.
@@ -98,16 +71,16 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
         const Status status = small_world().update(in_parts);
         ASSERT_TRUE(status.ok()) << status.text();
         EXPECT_GE(calls_of_parts.dispatches / dispatches, 2);
-        const Residents expected = read(*whole.on_device());
-        const Residents found = read(*in_parts.on_device());
+        const PairContents expected = read(*whole.on_device());
+        const PairContents found = read(*in_parts.on_device());
         EXPECT_GT(expected.pairs.size(), 500U);
         ASSERT_EQ(found.pairs.size(), expected.pairs.size());
-        ASSERT_EQ(found.records.size(), expected.records.size());
+        ASSERT_EQ(found.points.size(), expected.points.size());
         for (std::size_t i = 0; i < expected.pairs.size(); ++i) {
             ASSERT_EQ(std::memcmp(&found.pairs[i], &expected.pairs[i], sizeof(PairData)), 0) << i;
         }
-        for (std::size_t i = 0; i < expected.records.size(); ++i) {
-            ASSERT_TRUE(are_alike(found.records[i], expected.records[i])) << i;
+        for (std::size_t i = 0; i < expected.points.size(); ++i) {
+            ASSERT_TRUE(are_alike(found.points[i], expected.points[i])) << i;
         }
     }
 }
@@ -125,9 +98,9 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
     const Status status = small_world().update(in_parts);
     ASSERT_TRUE(status.ok()) << status.text();
     EXPECT_GE(calls_of_parts.dispatches / dispatches, 2);
-    const Residents expected = read(*whole.on_device());
-    const Residents found = read(*in_parts.on_device());
-    EXPECT_GE(found.records.size(), expected.records.size());
+    const PairContents expected = read(*whole.on_device());
+    const PairContents found = read(*in_parts.on_device());
+    EXPECT_GE(found.points.size(), expected.points.size());
     ASSERT_EQ(found.pairs.size(), expected.pairs.size());
     for (std::size_t i = 0; i < expected.pairs.size(); ++i) {
         const PairData& one = expected.pairs[i];
@@ -138,12 +111,12 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
         ASSERT_EQ(one.point_count, other.point_count);
         ASSERT_EQ(one.count_of_b, other.count_of_b);
         for (std::uint32_t k = 0; k < one.point_count; ++k) {
-            ASSERT_TRUE(are_alike(expected.records[one.first_point + k],
-                                  found.records[other.first_point + k]));
+            ASSERT_TRUE(are_alike(expected.points[one.first_point + k],
+                                  found.points[other.first_point + k]));
         }
         for (std::uint32_t k = 0; k < one.count_of_b; ++k) {
-            ASSERT_TRUE(are_alike(expected.records[one.first_of_b + k],
-                                  found.records[other.first_of_b + k]));
+            ASSERT_TRUE(
+                are_alike(expected.points[one.first_of_b + k], found.points[other.first_of_b + k]));
         }
     }
 }

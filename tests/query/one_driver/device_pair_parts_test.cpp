@@ -19,14 +19,14 @@ protected:
     void compare(PairTable<Query>& whole, PairTable<Query>& in_parts) {
         const Status expected = world().update(whole);
         ASSERT_TRUE(expected.ok()) << expected.text();
-        const std::vector<double> numbers = numbers_of(whole);
+        const std::vector<double> numbers = numbers_of_parts(whole);
         const Status status = small_world().update(in_parts);
         ASSERT_TRUE(status.ok()) << status.text();
-        EXPECT_TRUE(numbers_of(in_parts) == numbers) << "of " << numbers.size();
+        EXPECT_TRUE(numbers_of_parts(in_parts) == numbers) << "of " << numbers.size();
         calls_of_parts.submissions = 0;
         ASSERT_TRUE(small_world().update(in_parts).ok());
         EXPECT_EQ(calls_of_parts.submissions, 1);
-        EXPECT_TRUE(numbers_of(in_parts) == numbers) << "of " << numbers.size();
+        EXPECT_TRUE(numbers_of_parts(in_parts) == numbers) << "of " << numbers.size();
     }
     void move_all(Random& random, double extent) {
         for (std::size_t i = 0; i < size_of_both(); ++i) {

@@ -26,34 +26,6 @@ protected:
         return ++frame;
     }
 
-    /// All that a table says.
-    template <class Query>
-    static std::vector<double> numbers_of(PairTable<Query>& table) {
-        std::vector<double> numbers{1.0 * table.candidates(), 1.0 * table.left_to_cpu()};
-        for (std::uint32_t i = 0; i < table.size(); ++i) {
-            const auto row = table.row(i);
-            EXPECT_TRUE(row.has_value()) << row.error().text();
-            numbers.insert(numbers.end(), {1.0 * row->a.index, 1.0 * row->b.index, row->error_bound,
-                                           row->intersects ? 1.0 : 0.0});
-            if constexpr (requires { row->count; }) {
-                numbers.push_back(row->count);
-            }
-            if constexpr (requires { row->deepest; }) {
-                numbers.push_back(row->deepest.depth);
-            }
-            if constexpr (requires { row->distance; }) {
-                numbers.push_back(row->distance);
-            }
-            for (const auto& record : points_of(table, i)) {
-                if constexpr (requires { record.nearest; }) {
-                    numbers.insert(numbers.end(), {record.position.x, record.position.y,
-                                                   record.nearest.x, record.nearest.y});
-                }
-            }
-        }
-        return numbers;
-    }
-
     static constexpr VkDeviceSize header_bytes = sizeof(HeaderData);
     /// Records a copy of what stays on the device.
     void copy_residents(VkCommandBuffer commands, const PairsOnDevice& pairs, VkBuffer target) {
@@ -158,7 +130,7 @@ protected:
         std::vector<double> last_rows;
         update_with_each(reference, buffer, poses, [&] {
             expected.push_back(read_residents(*reference.on_device()));
-            last_rows = numbers_of(reference);
+            last_rows = numbers_of_table(reference);
         });
         ASSERT_EQ(expected.size(), poses.size());
         EXPECT_NE(expected[0], expected[1]);
@@ -194,7 +166,7 @@ protected:
         context().frame_completed(frame);
         const Status collected = table.collect();
         ASSERT_TRUE(collected.ok()) << collected.text();
-        EXPECT_EQ(numbers_of(table), last_rows);
+        EXPECT_EQ(numbers_of_table(table), last_rows);
         EXPECT_EQ(table.on_device()->revision, pairs.revision);
     }
     /// What was recorded is about the world as it was.
@@ -218,7 +190,7 @@ protected:
         PairTable<Query> reference(query, within((0.0 + ... + reach), on_device));
         std::vector<std::vector<double>> expected;
         update_with_each(reference, buffer, poses,
-                         [&] { expected.push_back(numbers_of(reference)); });
+                         [&] { expected.push_back(numbers_of_table(reference)); });
         PairTable<Query> table(query, within((0.0 + ... + reach), on_device));
         update_with_each(table, buffer, poses, [] {});
         KeptCommands kept(host_device());
@@ -236,7 +208,7 @@ protected:
             for (int times = 0; times < 2; ++times) {
                 const Status status = table.collect();
                 ASSERT_TRUE(status.ok()) << status.text();
-                EXPECT_EQ(numbers_of(table), expected[i]) << "poses " << i;
+                EXPECT_EQ(numbers_of_table(table), expected[i]) << "poses " << i;
             }
             EXPECT_EQ(table.timings().device, 0.0);
         }
@@ -273,7 +245,7 @@ TEST_F(DevicePairRecordings, MayFollowThemselvesInOneCommandBuffer) {
     const ContactQuery query{.tolerance = 0.03, .contact_distance = 0.05, .on_device = true};
     PairTable reference(query, on_device);
     std::vector<double> expected;
-    update_with_each(reference, buffer, poses, [&] { expected = numbers_of(reference); });
+    update_with_each(reference, buffer, poses, [&] { expected = numbers_of_table(reference); });
     PairTable table(query, on_device);
     update_with_each(table, buffer, poses, [] {});
     KeptCommands kept(host_device());
@@ -291,7 +263,7 @@ TEST_F(DevicePairRecordings, MayFollowThemselvesInOneCommandBuffer) {
     kept.run(std::array{primary});
     context().frame_completed(frame);
     ASSERT_TRUE(table.collect().ok());
-    EXPECT_EQ(numbers_of(table), expected);
+    EXPECT_EQ(numbers_of_table(table), expected);
 }
 
 /// Each frame of the host records one of two tables, at poses of the world, and reads the other.
@@ -315,13 +287,13 @@ TEST_F(DevicePairRecordings, TakeTurnsInTheFramesOfAHost) {
             EXPECT_TRUE(tables[turn].is_ready());
             const Status status = tables[turn].collect();
             ASSERT_TRUE(status.ok()) << status.text();
-            EXPECT_EQ(numbers_of(tables[turn]), expected[turn]);
+            EXPECT_EQ(numbers_of_table(tables[turn]), expected[turn]);
         }
         for (const InstanceHandle instance : added_) {
             ASSERT_TRUE(world().move(instance, any_pose(random, 3.0)).ok());
         }
         ASSERT_TRUE(world().update(reference).ok());
-        expected[turn] = numbers_of(reference);
+        expected[turn] = numbers_of_table(reference);
         ASSERT_TRUE(world().update(tables[turn]).ok());  // makes room
         const Status status = world().record(tables[turn], {.commands = commands, .frame = frame});
         ASSERT_TRUE(status.ok()) << status.text();

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <chrono>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -25,45 +24,6 @@ protected:
             EXPECT_TRUE(context().remove_shape(square_).ok());
         }
         DevicePairsTest::TearDown();
-    }
-
-    /// All that a table says.
-    struct Rows {
-        std::vector<PairRow<PenetrationQuery>> rows;
-        std::vector<std::vector<PenetratingPoint>> records;
-        std::uint32_t candidates = 0;
-        std::uint32_t left_to_cpu = 0;
-    };
-
-    static Rows rows_of(PairTable<PenetrationQuery>& table) {
-        Rows all;
-        for (std::uint32_t i = 0; i < table.size(); ++i) {
-            const auto row = table.row(i);
-            EXPECT_TRUE(row.has_value()) << row.error().text();
-            all.rows.push_back(*row);
-            all.records.push_back(points_of(table, i));
-        }
-        all.candidates = table.candidates();
-        all.left_to_cpu = table.left_to_cpu();
-        return all;
-    }
-
-    static void expect_equal(const Rows& found, const Rows& expected) {
-        ASSERT_EQ(found.rows.size(), expected.rows.size());
-        EXPECT_EQ(found.candidates, expected.candidates);
-        EXPECT_EQ(found.left_to_cpu, expected.left_to_cpu);
-        for (std::size_t i = 0; i < found.rows.size(); ++i) {
-            SCOPED_TRACE("row " + std::to_string(i));
-            EXPECT_EQ(found.rows[i].a, expected.rows[i].a);
-            EXPECT_EQ(found.rows[i].b, expected.rows[i].b);
-            EXPECT_EQ(found.rows[i].count, expected.rows[i].count);
-            EXPECT_EQ(found.rows[i].deepest.depth, expected.rows[i].deepest.depth);
-            ASSERT_EQ(found.records[i].size(), expected.records[i].size());
-            for (std::size_t k = 0; k < found.records[i].size(); ++k) {
-                EXPECT_EQ(found.records[i][k].position.x, expected.records[i][k].position.x);
-                EXPECT_EQ(found.records[i][k].depth, expected.records[i][k].depth);
-            }
-        }
     }
 
     /// Squares that overlap, of which some pairs are the CPU's.
@@ -93,29 +53,27 @@ TEST_F(DevicePairSubmissions, TellOfTheWorldAsItWas) {
     PairTable by_halves(close_calls, on_device);
     for (int i = 0; i < 4; ++i) {
         ASSERT_TRUE(world().update(at_once).ok());
-        const Rows expected = rows_of(at_once);
-        EXPECT_GT(expected.rows.size(), 4U);
-        if (i == 0) {
-            EXPECT_GT(expected.left_to_cpu, 0U);
-        }
+        const std::vector<double> expected = numbers_of_table(at_once);
+        EXPECT_GT(at_once.size(), 4U);
+        EXPECT_TRUE(i > 0 || at_once.left_to_cpu() > 0);
         ASSERT_TRUE(world().submit(by_halves).ok());
         EXPECT_EQ(by_halves.size(), 0U);
         EXPECT_EQ(by_halves.candidates(), 0U);
         change(i + 1);
         const Status status = by_halves.collect();
         ASSERT_TRUE(status.ok()) << status.text();
-        expect_equal(rows_of(by_halves), expected);
+        EXPECT_EQ(numbers_of_table(by_halves), expected);
         EXPECT_GT(by_halves.timings().total, 0.0);
     }
     ASSERT_TRUE(world().update(at_once).ok());
-    const Rows expected = rows_of(at_once);
+    const std::vector<double> expected = numbers_of_table(at_once);
     ASSERT_TRUE(world().submit(by_halves).ok());
     for (const InstanceHandle instance : std::exchange(added_, {})) {
         ASSERT_TRUE(world().remove(instance).ok());
     }
     ASSERT_TRUE(context().remove_shape(std::exchange(square_, {})).ok());
     ASSERT_TRUE(by_halves.collect().ok());
-    expect_equal(rows_of(by_halves), expected);
+    EXPECT_EQ(numbers_of_table(by_halves), expected);
 }
 
 /// The rows of the frame before can be read while the device works at the next.
@@ -129,21 +87,21 @@ TEST_F(DevicePairSubmissions, TakeTurns) {
     PairTable reference(submitted_penetrations, on_device);
     std::array<PairTable<PenetrationQuery>, 2> tables{PairTable(submitted_penetrations, on_device),
                                                       PairTable(submitted_penetrations, on_device)};
-    std::optional<Rows> before;
+    std::vector<double> before;
     for (std::size_t frame = 0; frame < 8; ++frame) {
         for (const InstanceHandle instance : instances) {
             ASSERT_TRUE(world().move(instance, any_pose(random, 3.0)).ok());
         }
         ASSERT_TRUE(world().submit(tables[frame % 2]).ok());
-        if (before) {
+        if (frame > 0) {
             PairTable<PenetrationQuery>& last = tables[(frame + 1) % 2];
             ASSERT_TRUE(last.collect().ok());
-            expect_equal(rows_of(last), *before);
+            EXPECT_EQ(numbers_of_table(last), before);
         }
         ASSERT_TRUE(world().update(reference).ok());
-        before = rows_of(reference);
+        before = numbers_of_table(reference);
     }
-    EXPECT_GT(before->rows.size(), 3U);
+    EXPECT_GT(reference.size(), 3U);
 }
 
 /// There is room for some thousand pairs at first.
@@ -214,7 +172,7 @@ TEST_F(DevicePairSubmissions, CutByLimitsAreNone) {
     crowd();
     PairTable reference(close_calls, on_device);
     ASSERT_TRUE(world().update(reference).ok());
-    const Rows expected = rows_of(reference);
+    const std::vector<double> expected = numbers_of_table(reference);
     PairTable table(close_calls, on_device);
     const std::uint64_t cuts = cut_everywhere(dense, [&](std::uint64_t n) {
         SCOPED_TRACE("cut at checkpoint " + std::to_string(n));
@@ -225,7 +183,7 @@ TEST_F(DevicePairSubmissions, CutByLimitsAreNone) {
             << status.text();
         EXPECT_EQ(table.size() > 0, !cut.has_cut());
         EXPECT_TRUE(world().update(table).ok());
-        expect_equal(rows_of(table), expected);
+        EXPECT_EQ(numbers_of_table(table), expected);
         return cut.has_cut() && !HasFailure();
     });
     EXPECT_GE(cuts, 2U);

@@ -156,6 +156,15 @@ TEST_F(Frames, AnswerForShapesAsTheyWereSubmitted) {
 TEST_F(Frames, BorrowNothing) {
     make(2);
     Batch queries = batch(0);
+    for (const Technique technique : every_technique) {
+        DistanceFieldQuery field;
+        field.technique = technique;
+        field.b = {b_, {}};
+        field.tolerance = 0.1;
+        field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+        field.points = field_points_;
+        queries.add(field);
+    }
     const std::vector<double> expected = run(queries);
     const Ticket ticket = submit(queries);
     std::fill(field_points_.begin(), field_points_.end(), Vector2{1e9, 1e9});

@@ -54,6 +54,8 @@ TEST_F(Handles, OfShapesThatAreGoneAreRefused) {
     const ShapeHandle successor = *here_.add_shape(square);
     ASSERT_EQ(successor.index, own_.index);
     constexpr StatusCode code = StatusCode::unknown_shape;
+    EXPECT_FALSE(successor == own_);
+    expect(here_.update_shape(own_, square), code, "was removed");
     expect(here_.remove_shape(own_), code, "was removed");
     expect(here_.remove_shape({}), code, "names no shape");
     expect(run_alone(here_, IntersectionTestQuery{{own_, {}}, {successor, {}}}).status, code,

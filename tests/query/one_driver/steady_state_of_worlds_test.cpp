@@ -1,49 +1,79 @@
 #include <tests/query/steady_state.hpp>
+#include <tests/support/host_frames.hpp>
 #include <tests/support/host_gpu.hpp>
 #include <tests/support/pair_tables.hpp>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace nearfield::test {
 namespace {
 
-using SteadyStateOfWorlds = SteadyStateTest;
+class SteadyStateOfWorlds : public SteadyStateTest {
+protected:
+    void SetUp() override {
+        SteadyStateTest::SetUp();
+        Expected<World> made = World::create(watched());
+        ASSERT_TRUE(made.has_value()) << made.error().text();
+        world_.emplace(std::move(*made));
+    }
+    void TearDown() override {
+        world_.reset();
+        SteadyStateTest::TearDown();
+    }
+
+    World& world() { return *world_; }
+    /// Twenty instances of the frame's first shapes, in turns.
+    void add_instances(std::size_t shapes) {
+        for (std::size_t i = 0; i < 20; ++i) {
+            const auto instance = world().add({.shape = shapes_of_frame()[i % shapes]});
+            ASSERT_TRUE(instance.has_value()) << instance.error().text();
+            instances_.push_back(*instance);
+        }
+    }
+    /// The same poses again and again, so that warming up has seen all.
+    bool move_instances(int number) {
+        bool ok = true;
+        for (std::size_t i = 0; i < instances_.size(); ++i) {
+            ok = world().move(instances_[i], pose_of(i, 0.7 * (number % 8))).ok() && ok;
+        }
+        return ok;
+    }
+
+    std::vector<InstanceHandle> instances_;
+
+private:
+    static Pose pose_of(std::size_t i, double angle) {
+        const auto place = static_cast<double>(i);
+        return {{0.8 * place, 0.0}, angle + place};
+    }
+
+    std::optional<World> world_;
+};
 
 TEST_F(SteadyStateOfWorlds, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
-    Expected<World> world = World::create(watched());
-    ASSERT_TRUE(world.has_value()) << world.error().text();
-    const std::vector<ShapeHandle> shapes = shapes_of_frame();
-    std::vector<InstanceHandle> instances;
-    for (std::size_t i = 0; i < 20; ++i) {
-        const auto instance = world->add({.shape = shapes[i % 2], .pose = {}});
-        ASSERT_TRUE(instance.has_value()) << instance.error().text();
-        instances.push_back(*instance);
-    }
+    add_instances(2);
     PairTable<PenetrationQuery> table({.tolerance = 0.08}, on_device);
     PairTable intersections(IntersectionTestQuery{}, on_device);
     PairTable contacts(ContactQuery{.tolerance = 0.08, .contact_distance = 0.1}, on_device);
     std::size_t read = 0;
     std::uint32_t rows = 0;
     expect_nothing_made(200, [&](int number) {
-        bool ok = true;
-        for (std::size_t i = 0; i < instances.size(); ++i) {
-            // The same poses again and again, so that warming up has seen all.
-            const double angle = 0.7 * (number % 8) + static_cast<double>(i);
-            ok = world->move(instances[i], {{0.8 * static_cast<double>(i), 0.0}, angle}).ok() && ok;
-        }
-        ok = world->update(table).ok() && ok;
+        bool ok = move_instances(number) && world().update(table).ok();
         for (const auto& row : table.rows()) {
             read += table.points(row).size();
         }
         rows = table.size();
-        ok = world->update(intersections).ok() && ok;
+        ok = world().update(intersections).ok() && ok;
         for (std::uint32_t row = 0; row < intersections.size(); ++row) {
             ok = intersections.row(row).has_value() && ok;
         }
-        ok = world->submit(contacts).ok() && contacts.collect().ok() && ok;
+        ok = world().submit(contacts).ok() && contacts.collect().ok() && ok;
         for (const auto& row : contacts.rows()) {
             read += contacts.points(row).size() + contacts.manifold(row).size();
         }
@@ -54,16 +84,12 @@ TEST_F(SteadyStateOfWorlds, DevicePairsOfMovingInstancesAllocateAndCreateNothing
 }
 
 TEST_F(SteadyStateOfWorlds, QuestionsForTheDeviceAllocateAndCreateNothing) {
-    Expected<World> world = World::create(watched());
-    ASSERT_TRUE(world.has_value()) << world.error().text();
-    const std::vector<ShapeHandle> shapes = shapes_of_frame();
-    std::vector<InstanceHandle> instances;
+    // Pairs at the same place, so that the CPU answers some questions.
     for (std::size_t i = 0; i < 20; ++i) {
-        // Some are at the same place, so that the CPU answers some questions.
         const Pose pose{{0.8 * static_cast<double>(i / 2), 0.0}, 0.0};
-        const auto instance = world->add({.shape = shapes[0], .pose = pose});
+        const auto instance = world().add({.shape = shapes_of_frame()[0], .pose = pose});
         ASSERT_TRUE(instance.has_value()) << instance.error().text();
-        instances.push_back(*instance);
+        instances_.push_back(*instance);
     }
     std::vector<Segment> segments;
     std::vector<Vector2> points;
@@ -71,6 +97,7 @@ TEST_F(SteadyStateOfWorlds, QuestionsForTheDeviceAllocateAndCreateNothing) {
         points.push_back({0.03 * i, 0.01 * (i % 50)});
         segments.push_back({{0.03 * i, -3.0}, {0.02 * i, 3.0}});
     }
+    const ShapeHandle asked = shapes_of_frame()[1];
     std::vector<RayHit> hits(segments.size());
     std::vector<NearestHit> near(points.size());
     const std::vector<Pose> poses(300, Pose{{3.6, 0.0}, 0.3});
@@ -81,12 +108,12 @@ TEST_F(SteadyStateOfWorlds, QuestionsForTheDeviceAllocateAndCreateNothing) {
     expect_nothing_made(200, [&](int number) {
         const double angle = 0.7 * (number % 8);
         // The last two move together.
-        const bool ok = world->move(instances[18], {{7.2, 0.0}, angle}).ok() &&
-                        world->move(instances[19], {{7.2, 0.0}, angle}).ok() &&
-                        world->submit(nearest, {}, points, by_device).ok() &&
-                        world->cast_rays(segments, hits, by_device).ok() &&
-                        world->submit(rays, segments).ok() && nearest.collect(near).ok() &&
-                        world->test_poses(shapes[1], poses, meets, by_device).ok() &&
+        const bool ok = world().move(instances_[18], {{7.2, 0.0}, angle}).ok() &&
+                        world().move(instances_[19], {{7.2, 0.0}, angle}).ok() &&
+                        world().submit(nearest, {}, points, by_device).ok() &&
+                        world().cast_rays(segments, hits, by_device).ok() &&
+                        world().submit(rays, segments).ok() && nearest.collect(near).ok() &&
+                        world().test_poses(asked, poses, meets, by_device).ok() &&
                         rays.collect(hits).ok();
         return ok;
     });
@@ -94,29 +121,33 @@ TEST_F(SteadyStateOfWorlds, QuestionsForTheDeviceAllocateAndCreateNothing) {
     EXPECT_NE(hits[10].instance, InstanceHandle{});
 }
 
-TEST_F(SteadyStateOfWorlds, DevicePairsAtPosesOfTheHostAllocateAndCreateNothing) {
-    Expected<World> world = World::create(watched());
-    ASSERT_TRUE(world.has_value()) << world.error().text();
-    const std::vector<ShapeHandle> shapes = shapes_of_frame();
-    std::vector<std::array<float, 4>> places;
-    for (std::size_t i = 0; i < 20; ++i) {
-        const auto instance = world->add({.shape = shapes[i % 2], .pose = {}});
-        ASSERT_TRUE(instance.has_value()) << instance.error().text();
-        places.push_back({0.8F * static_cast<float>(i), 0.0F, 0.6F, 0.8F});
+/// Places of the instances in a buffer of the host.
+struct HostPlaces {
+    explicit HostPlaces(test_support::HostGpu& gpu) {
+        std::vector<std::array<float, 4>> places;
+        for (int i = 0; i < 20; ++i) {
+            places.push_back({0.8F * static_cast<float>(i), 0.0F, 0.6F, 0.8F});
+        }
+        poses.size = sizeof(places[0]) * places.size();
+        poses.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+        const auto buffer = gpu.make_buffer(poses.size, poses.usage);
+        poses.buffer = buffer.buffer;
+        std::memcpy(const_cast<std::byte*>(buffer.data), places.data(),
+                    poses.size);  // it is mapped
     }
-    test_support::HostGpu gpu(host_device());
-    const std::uint64_t bytes = sizeof(places[0]) * places.size();
-    const auto buffer = gpu.make_buffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    std::memcpy(const_cast<std::byte*>(buffer.data), places.data(), bytes);  // it is mapped
+
     DevicePoses poses;
-    poses.buffer = buffer.buffer;
-    poses.size = bytes;
-    poses.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+};
+
+TEST_F(SteadyStateOfWorlds, DevicePairsAtPosesOfTheHostAllocateAndCreateNothing) {
+    add_instances(2);
+    test_support::HostGpu gpu(host_device());
+    const HostPlaces places(gpu);
     PairTable<PenetrationQuery> table({.tolerance = 0.08, .on_device = true}, on_device);
     std::size_t read = 0;
     expect_nothing_made(200, [&](int) {
-        bool ok =
-            world->submit(table, at_poses(poses)).ok() && table.on_device() && table.collect().ok();
+        const bool ok = world().submit(table, at_poses(places.poses)).ok() && table.on_device() &&
+                        table.collect().ok();
         for (const auto& row : table.rows()) {
             read += table.points(row).size();
         }
@@ -124,6 +155,34 @@ TEST_F(SteadyStateOfWorlds, DevicePairsAtPosesOfTheHostAllocateAndCreateNothing)
     });
     EXPECT_GT(table.size(), 10U);
     EXPECT_GT(read, 1000U);
+}
+
+TEST_F(SteadyStateOfWorlds, RecordedDevicePairsAllocateCreateWaitForAndSubmitNothing) {
+    add_instances(1);
+    test_support::HostGpu gpu(host_device());
+    const HostPlaces places(gpu);
+    test_support::HostFrames host(host_device(), 1);
+    std::uint64_t frame = 0;
+    for (const PairTableInput& input : {PairTableInput{}, at_poses(places.poses)}) {
+        PairTable table(ContactQuery{.tolerance = 0.08, .contact_distance = 0.1, .on_device = true},
+                        on_device);
+        ASSERT_TRUE(world().update(table).ok());  // makes room
+        expect_nothing_made(100, [&](int number) {
+            VkCommandBuffer commands = VK_NULL_HANDLE;
+            by_others([&] { commands = host.begin(frame); });
+            const bool ok =
+                move_instances(number) &&
+                world().record(table, {.commands = commands, .frame = frame}, input).ok();
+            by_others([&] {
+                host.submit(frame);
+                host.wait(frame);
+            });
+            watched().frame_completed(frame++);
+            return ok && world().is_recorded(table) && table.is_ready() && table.collect().ok() &&
+                   table.size() > 0;
+        });
+        EXPECT_EQ(waits_and_submissions, 0);
+    }
 }
 
 }  // namespace
