@@ -5,7 +5,7 @@
 #include <vector>
 
 int main() {
-    nearfield::Context context;  // the CPU; create() takes your Vulkan device
+    nearfield::Context context;  // CPU only; Context::create() takes your Vulkan device
     // A shape is a list of rings: outer boundaries and holes, in any order and orientation.
     const std::vector<nearfield::Ring> arrow_rings{
         {{0, -1}, {4, -1}, {4, -2}, {7, 0}, {4, 2}, {4, 1}, {0, 1}}};
@@ -20,7 +20,7 @@ int main() {
                                     .b = {channel},
                                     .tolerance = 0.1,
                                     .points = nearfield::PenetrationPoints::vertices});
-    if (!deep) {  // a shape that was refused is named here, too
+    if (!deep) {  // also reports a shape that add_shape() rejected
         std::puts(deep.error().text().c_str());
         return 1;
     }

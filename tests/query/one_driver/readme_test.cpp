@@ -30,8 +30,8 @@ TEST(Readme, TheExamplesWork) {
     auto query = batch.add(
         nearfield::PenetrationQuery{.a = {arrow, pose}, .b = {channel}, .tolerance = 0.1});
     nearfield::Results results;
-    auto ticket = context.submit(batch);  // no wait; batch and shapes are free to change
-    // ... the rest of the frame; then, when is_ready(*ticket) says so, or at once:
+    auto ticket = context.submit(batch);  // no wait for the device; batch and shapes may change
+    // ... the rest of the frame; is_ready(*ticket) polls, collect() waits:
     if (nearfield::Status status = context.collect(*ticket, results); !status.ok()) {
         std::puts(status.text().c_str());
     } else {
