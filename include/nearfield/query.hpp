@@ -41,18 +41,18 @@ inline constexpr double max_deviation = 0.25;
 
 /// The technique that answers a query. ResultSummary::technique states which one did.
 ///
-/// All techniques list the same points, with depths and distances that differ by
-/// less than d/1000. A point penetrates a shape if it is inside and deeper than d/1024; otherwise
-/// it touches. Intersections have the same cells; raster and cpu find the same samples and edges,
-/// bit for bit, on a device with 8 sub-pixel bits, whose grid cpu has everywhere. Those of compute
-/// may differ within the error bound, near the boundaries. Fields have the same grid, and values
-/// within both error bounds; signs differ only where these allow it, near the boundary.
+/// All techniques list the same points, with depths and distances that differ by less than d/1000.
+/// A point penetrates a shape if it is inside and deeper than d/1024; otherwise it touches.
+/// Intersections use the same cells. raster and cpu find the same samples and edges, bit for bit,
+/// if the device has 8 sub-pixel bits, which cpu always assumes. The samples of compute may differ
+/// near the boundaries, within the error bound. Fields have the same grid, and values within both
+/// error bounds; signs differ only where these allow it, near the boundary.
 enum class Technique {
-    /// Selects cpu for what it answers, except on hardware devices: there, from a number of pairs
-    /// or cells of fields in a batch (Settings::device_thresholds), all queries of that group go to
-    /// compute. Contacts with gradient normals, and queries that compute might refuse (too_large),
-    /// stay with cpu. For what cpu does not answer it selects compute where that answers, otherwise
-    /// raster.
+    /// Selects cpu for every query that cpu answers. Exception: on a hardware device, if a batch
+    /// has many pairs or field cells (Settings::device_thresholds), it selects compute for all
+    /// queries of that group. Contacts with gradient normals, and queries that compute might refuse
+    /// (too_large), stay with cpu. For what cpu does not answer it selects compute where that
+    /// answers, otherwise raster.
     automatic,
     /// The paper's: fields are drawn on the device, and the results refined on the CPU.
     raster,
@@ -218,8 +218,8 @@ struct DistanceFieldQuery {
     Instance b = {};         ///< the shape whose distance is computed
     double tolerance = 0.0;  ///< d, world units, > 0; the side of a cell is d * sqrt 2
     /// The area of the grid, world coordinates; its low corner is that of cell (0, 0). Unset: the
-    /// intersection of the bounding boxes of A and B, grown by d on every side; an error if they do
-    /// not intersect.
+    /// bounding boxes of A and B are intersected, and the intersection is grown by d on every side.
+    /// The query fails if the boxes do not intersect.
     std::optional<Rectangle> rectangle = std::nullopt;
     SignEncoding sign = SignEncoding::stencil;  ///< of Technique::raster
     /// For gradients at cells and at points.
@@ -279,7 +279,7 @@ struct NEARFIELD_EXPORT ContactQuery {
 /// The point of A that is closest to B (section 2.2.4 of the paper, "Closest Point").
 ///
 ///     const auto closest = context.answer(nearfield::ClosestPointQuery{
-///         .a = {arrow, far}, .b = {channel}, .tolerance = 0.01});
+///         .a = {arrow, far_pose}, .b = {channel}, .tolerance = 0.01});
 ///     const nearfield::Vector2 grip = closest ? closest->point : nearfield::Vector2{};
 struct NEARFIELD_EXPORT ClosestPointQuery {
     using Result = ClosestPointResult;  ///< the type of its result (result.hpp)
@@ -297,7 +297,7 @@ struct NEARFIELD_EXPORT ClosestPointQuery {
 /// "Separation Distance and Direction").
 ///
 ///     const auto gap = context.answer(
-///         nearfield::SeparationQuery{.a = {arrow, far}, .b = {channel}, .tolerance = 0.01});
+///         nearfield::SeparationQuery{.a = {arrow, far_pose}, .b = {channel}, .tolerance = 0.01});
 ///     const bool is_clear = gap && gap->distance > 0.5;
 struct NEARFIELD_EXPORT SeparationQuery {
     using Result = SeparationResult;  ///< the type of its result (result.hpp)
@@ -331,7 +331,7 @@ struct NEARFIELD_EXPORT IntersectionTestQuery {
 /// Always answered on the CPU, as IntersectionTestQuery.
 ///
 ///     const auto impact = context.answer(nearfield::TimeOfImpactQuery{
-///         .a = {arrow, far}, .b = {channel}, .end_a = pose, .tolerance = 0.001});
+///         .a = {arrow, far_pose}, .b = {channel}, .end_a = pose, .tolerance = 0.001});
 ///     const double time = impact ? impact->time : 0.0;  // 1 if they never touch
 struct NEARFIELD_EXPORT TimeOfImpactQuery {
     using Result = TimeOfImpactResult;  ///< the type of its result (result.hpp)
@@ -374,9 +374,9 @@ struct NEARFIELD_EXPORT SeparationVectorQuery {
     /// SeparationVectorResult::lower_bound states what is known then.
     double tolerance = 0.0;
     /// Work limit of the search. One unit is the test of an edge against an edge, a point or a
-    /// line: a few nanoseconds. Not limited are the first translation, past the other shape's box,
-    /// and the step in progress; each takes at most a few hundred units per edge of the shapes. A
-    /// lower limit gives a longer vector and a smaller lower bound, both still valid.
+    /// line: a few nanoseconds. The limit does not cover the first translation, past the other
+    /// shape's box, or the step in progress; each costs at most a few hundred units per edge of the
+    /// shapes. A lower limit may give a longer vector and a smaller lower bound, both still valid.
     std::uint64_t max_work = 10'000'000;
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };

@@ -26,9 +26,9 @@ struct PenetratingPoint {
     Vector2 direction;   ///< unit vector from `position` to `nearest`: points out of B
     Vector2 nearest;     ///< the point of B's boundary nearest to `position`
     Feature feature;     ///< of B: where `nearest` lies
-    /// False if the direction is one of several: the point of another edge of B nearest to
-    /// `position` is within `depth` + d/1000 of it, and farther from `nearest` than 2 * sqrt((depth
-    /// + d/1000)^2 - depth^2), twice what a straight edge explains.
+    /// False if another direction is as good: the nearest point of another edge of B is within
+    /// `depth` + d/1000 of `position`, and farther from `nearest` than 2 * sqrt((depth + d/1000)^2
+    /// - depth^2), twice the distance possible on one straight edge.
     bool unique = true;
 };
 
@@ -51,8 +51,8 @@ struct PenetrationValues {
 struct PenetrationResult : ResultSummary, PenetrationValues {
     using Values = PenetrationValues;  ///< what it states besides summary and points
     using Point = PenetratingPoint;    ///< what it lists
-    /// In order along A's rings. A sequence that continues past the first vertex of a ring may be
-    /// listed as a whole at the start of the ring; techniques differ in this.
+    /// In order along A's rings. If a run of points spans the first vertex of a ring, some
+    /// techniques list the whole run at the start of the ring.
     std::vector<PenetratingPoint> points;
 };
 
@@ -75,9 +75,9 @@ struct IntersectionValues {
 
 /// Answer to an IntersectionQuery.
 ///
-/// `error_bound`: every sample is within it of both shapes, and every point that is deeper than it
-/// in both shapes has a sample within it; for a shape whose boundary the query uses, every point on
-/// the boundary.
+/// `error_bound`, called e here: every sample is within e of both shapes, and every point deeper
+/// than e in both shapes has a sample within e. If the query uses a shape's boundary, points on
+/// that boundary take the place of points deep in that shape.
 struct IntersectionResult : ResultSummary, IntersectionValues {
     using Values = IntersectionValues;        ///< what it states besides summary and samples
     using Point = IntersectionSample;         ///< what it lists
@@ -139,8 +139,9 @@ enum class Side : std::uint8_t {
 /// A point of one boundary that is close to the other boundary.
 struct ContactPoint {
     Vector2 position;  ///< on the boundary of the shape `on`
-    /// Unit normal of B's boundary, points out of B: for a point of A the way in which B's signed
-    /// distance grows; on B, or within rounding (2^-15 cells) of it, an edge's, or a vertex' mean.
+    /// Unit normal of B's boundary, pointing out of B. For a point of A: the direction in which B's
+    /// signed distance grows. For a point on B's boundary, or within 2^-15 cells of it: the normal
+    /// of the edge, or the mean of two edges' normals at a vertex.
     Vector2 normal;
     double distance = 0.0;  ///< from `position` to `nearest`, >= 0
     Vector2 nearest;        ///< the nearest point of the other shape's boundary
@@ -156,9 +157,10 @@ struct ContactPoint {
 /// B whose normals are within 45 degrees of their mean.
 struct ContactCluster {
     /// The first end of the cluster, in the order of A's vertices: a point of A's boundary. The
-    /// ends are the contacts farthest along the direction at right angles to `normal`, less twice a
-    /// contact's distance outside B, plus an eighth of its depth. Both ends are the same point if
-    /// there is only one contact, and the deepest contact if the cluster runs straight into B.
+    /// ends are the contacts that reach farthest at right angles to `normal`; a contact outside B
+    /// counts as nearer by twice its distance, one inside as farther by an eighth of its depth.
+    /// Both ends are the same point if there is only one contact, and the deepest contact if the
+    /// cluster runs straight into B.
     Vector2 first;
     Vector2 last;    ///< the other end
     Vector2 normal;  ///< mean of the contacts' normals, unit, points out of B
@@ -238,9 +240,10 @@ struct SeparationResult : ResultSummary, SeparationValues {
 /// What an IntersectionTestResult states besides its summary: nothing.
 struct IntersectionTestValues {};
 
-/// Answer to an IntersectionTestQuery: `intersects`. Shapes that a motion by `error_bound` (the
-/// rounding of transformed vertices plus the shapes' deviations) joins or parts may be reported
-/// either way; all others are reported exactly. `tolerance` and `cell` are 0.
+/// Answer to an IntersectionTestQuery: `intersects`. `error_bound` is the rounding of transformed
+/// vertices plus the shapes' deviations. If a motion of at most `error_bound` would join or
+/// separate the shapes, either answer may be reported; otherwise the answer is exact. `tolerance`
+/// and `cell` are 0.
 struct IntersectionTestResult : ResultSummary, IntersectionTestValues {
     using Values = IntersectionTestValues;  ///< what it states besides its summary
     using Point = NoPoint;                  ///< what it lists, nothing
@@ -299,7 +302,7 @@ struct TimeOfImpactResult : ResultSummary, TimeOfImpactValues {
 struct SeparationVectorValues {
     Vector2 vector;       ///< add it to the translation of A's pose
     double length = 0.0;  ///< of the vector
-    /// No translation of A shorter than this takes the shapes farther apart than `error_bound`.
+    /// No translation of A shorter than this separates the shapes by more than `error_bound`.
     double lower_bound = 0.0;
     std::uint64_t work = 0;  ///< work done, in the unit of SeparationVectorQuery::max_work
 };
@@ -360,9 +363,9 @@ struct Results {
     Timings timings;                 ///< of the batch as a whole
     std::uint64_t batch = 0;         ///< Batch::number() of the batch
 
-    /// The result of a query. If the handle names none of these results, because it is of another
-    /// batch, its position is out of range or its query is of another kind, a result whose status
-    /// is invalid_query and says so. Borrowed from the results.
+    /// The result of a query. If the handle belongs to another batch, is out of range or names a
+    /// query of another kind, returns a result whose status is invalid_query and says why. Borrowed
+    /// from the results.
     template <class Query>
     [[nodiscard]] const typename Query::Result& operator[](
         QueryHandle<Query> handle) const noexcept {

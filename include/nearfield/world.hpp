@@ -17,10 +17,10 @@
 /// segment. The last argument (WorldOptions) selects the instances considered, the limits of the
 /// call and the technique.
 ///
-/// Answers are exact up to the rounding that each one's error bound states, by either technique.
-/// What a world keeps between calls makes them faster and never changes an answer: after any
-/// sequence of calls, each answer is the same, bit for bit, as in a new world to which the present
-/// instances were added in the order of their adding.
+/// Answers are exact up to the rounding stated by their error bounds, with Technique::cpu and
+/// Technique::compute alike. What a world keeps between calls makes them faster and never changes
+/// an answer: after any sequence of calls, each answer is the same, bit for bit, as in a new world
+/// to which the present instances were added in the order of their adding.
 
 namespace nearfield {
 
@@ -34,9 +34,9 @@ class WorldRequest;
 /// and refitted when something changes. Removing a shape from the context removes its instances
 /// from all answers, for good.
 ///
-/// Threads: as for the context, which is used by all members; the two count as one object. Many
-/// poses, points, segments and pairs are divided among Settings::jobs. Results do not depend on
-/// their number.
+/// Threads: as for the context, which every member uses; a world and its context count as one
+/// object. Many poses, points, segments and pairs are divided among Settings::jobs. Results do not
+/// depend on their number.
 ///
 /// Lifetime: the context must outlive the world.
 ///
@@ -44,9 +44,9 @@ class WorldRequest;
 /// query or pose are invalid_query, and the message names the first; handles of shapes are
 /// unknown_shape, handles of instances unknown_instance.
 ///
-/// Limits: every call can be given Limits (limits.hpp). If they end it, it fails (cancelled or
-/// budget_exhausted), so that no output looks whole that is not. The time for making and refitting
-/// boxes counts, but has no checkpoints.
+/// Limits: every call can be given Limits (limits.hpp). If the limits end a call, it fails
+/// (cancelled or budget_exhausted), so partial output is never taken for complete. The time for
+/// making and refitting boxes counts, but has no checkpoints.
 ///
 /// Techniques: a function that only the CPU answers refuses Technique::compute
 /// (unsupported_technique). With Technique::compute a call also fails with unsupported_technique if
@@ -60,8 +60,8 @@ class WorldRequest;
 ///     status = world.cast_rays(segments, hits);
 class NEARFIELD_EXPORT World {
 public:
-    /// Creates an empty world. The program ends if there is no memory for it: where that has to be
-    /// handled, call create().
+    /// Creates an empty world. Ends the program if memory runs out; call create() to handle that
+    /// case.
     explicit World(Context& context) noexcept;
     /// Creates an empty world. Fails with out_of_memory.
     [[nodiscard]] static Expected<World> create(Context& context);
@@ -91,9 +91,8 @@ public:
     /// The number of instances.
     [[nodiscard]] std::uint32_t size() const noexcept;
 
-    /// Finds the first hit of each segment. Of several hits at the same point, that of the instance
-    /// added first counts, at its edge of lowest index. Fails (invalid_query) if the spans differ
-    /// in length.
+    /// Finds the first hit of each segment. If several hits coincide, the instance added first
+    /// wins, then the edge of lowest index. Fails (invalid_query) if the spans differ in length.
     ///
     ///     std::vector<nearfield::RayHit> hits(segments.size());
     ///     const nearfield::WorldOptions options{.technique = nearfield::Technique::automatic};
@@ -213,7 +212,7 @@ public:
     /// Does the first half of find_nearest() for points; otherwise as for segments.
     ///
     ///     auto status = world.submit(request, {.max_distance = 2.0}, points);
-    ///     status = status.ok() ? request.collect(near) : status;
+    ///     status = status.ok() ? request.collect(nearest) : status;
     Status submit(WorldRequest& request, const NearestQuery& query, std::span<const Vector2> points,
                   const WorldOptions& options = {});
     /// Does the first half of test_poses(); otherwise as for segments.
@@ -234,10 +233,10 @@ public:
     /// are the status of their rows.
     Status update(PairTableBase& table, const PairTableInput& input = {},
                   const Limits& limits = {});
-    /// Does the first half of update(): uploads what has changed and starts the device. By
-    /// Technique::cpu it answers the pairs. PairTable::collect() is the second half; until then the
-    /// table has no rows. Instances and shapes may change meanwhile: the table describes them as
-    /// they were. Fails as update().
+    /// Does the first half of update(): uploads what has changed and starts the device. With
+    /// Technique::cpu it answers the pairs before it returns. PairTable::collect() is the second
+    /// half; until then the table has no rows. Instances and shapes may change meanwhile: the table
+    /// describes them as they were. Fails as update().
     Status submit(PairTableBase& table, const PairTableInput& input = {},
                   const Limits& limits = {});
     /// Records what submit() submits into a command buffer of the host, which may submit it any
