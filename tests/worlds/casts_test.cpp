@@ -121,5 +121,20 @@ TEST_P(WorldCasts, AreTheEarliestTimeOfImpact) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, WorldCasts, testing::ValuesIn(all_scene_kinds()));
 
+TEST(WorldCastsOfSquares, ComeWithinTheContactDistanceBesideTheirPath) {
+    Scene scene(unit_squares({{4.0, 1.25}}));
+    ShapeCastQuery query{scene.add_shape(rectangle({0, 0}, {1, 1}))};
+    query.tolerance = 1e-9;
+    const Sweep sweep{{{0, 0}, 0}, {{8, 0}, 0}};
+    ShapeCastHit hit;
+    for (const double contact_distance : {0.2, 0.25, 0.5}) {
+        query.contact_distance = contact_distance;
+        ASSERT_TRUE(scene.world().cast_shape(query, {&sweep, 1}, {&hit, 1}).ok());
+        EXPECT_EQ(hit.state, contact_distance < 0.25 ? ImpactState::separated : ImpactState::hit);
+    }
+    // The corners come within 0.5: 0.25 above, and so much before.
+    EXPECT_NEAR(hit.time, (3.0 - std::sqrt(0.25 - 0.0625)) / 8.0, 1e-8);
+}
+
 }  // namespace
 }  // namespace nearfield::test
