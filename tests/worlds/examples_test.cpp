@@ -38,7 +38,7 @@ protected:
     Rectangle window{{-5.0, -5.0}, {5.0, 5.0}};
     Vector2 cursor{9.1, 0.1};
     std::vector<RayHit> hits = std::vector<RayHit>(1);
-    std::vector<NearestHit> near = std::vector<NearestHit>(1);
+    std::vector<NearestHit> nearest = std::vector<NearestHit>(1);
     std::vector<std::uint8_t> blocked = std::vector<std::uint8_t>(2);
     WorldRequest request;
     std::vector<Vector2> places;
@@ -54,7 +54,7 @@ TEST_F(WorldExamples, CompileAndRun) {
     ASSERT_EQ(places.size(), 2U);
     EXPECT_EQ(places.back(), (Vector2{1.0, 0.5}));
     EXPECT_EQ(drawn.size(), 1U);
-    EXPECT_EQ(near.front().distance, 1.0);
+    EXPECT_EQ(nearest.front().distance, 1.0);
     EXPECT_EQ(blocked, (std::vector<std::uint8_t>{1, 1}));
 }
 #pragma GCC diagnostic pop
@@ -75,7 +75,7 @@ protected:
         Rings{{{0, -5}, {10, -5}, {10, 5}, {0, 5}, {0, 3}, {8, 3}, {8, -3}, {0, -3}}});
     AddedShape sheet = context.add_shape(rectangle({-20.0, -20.0}, {20.0, 20.0}));
     Pose pose{{1.5, 0.5}, 0.0};
-    Pose far{{-9.0, 0.0}, 0.0};
+    Pose far_pose{{-9.0, 0.0}, 0.0};
     double deepest = 0.0;
     int solved = 0;
     // NOLINTEND(readability-identifier-naming)
