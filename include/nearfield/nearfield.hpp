@@ -1,8 +1,8 @@
 #pragma once
 
-/// \file Everything that needs no Vulkan types: shapes, queries, batches and worlds, answered by
-/// the CPU or by a device that the context creates. To use your own Vulkan device, include
-/// vulkan.hpp.
+/// \file
+/// Everything that needs no Vulkan types: shapes, queries, batches and worlds, answered by the CPU
+/// or by a device that the context creates. To use your own Vulkan device, include vulkan.hpp.
 ///
 /// Begin with Context (context.hpp), Ring (shape.hpp), the queries (query.hpp) and their results
 /// (result.hpp); then Batch and Results; then World and its tables of pairs (world.hpp).

@@ -40,9 +40,9 @@ class WorldRequest;
 ///
 /// Lifetime: the context must outlive the world.
 ///
-/// Errors: a call that fails changes nothing, and leaves its output undefined. Invalid numbers in a
-/// query or pose are invalid_query, and the message names the first; handles of shapes are
-/// unknown_shape, handles of instances unknown_instance.
+/// Errors: a call that fails does not change the world. Its output is undefined, except for a table
+/// of pairs (update()). Invalid numbers in a query or pose are invalid_query, and the message names
+/// the first; handles of shapes are unknown_shape, handles of instances unknown_instance.
 ///
 /// Limits: every call can be given Limits (limits.hpp). If the limits end a call, it fails
 /// (cancelled or budget_exhausted), so partial output is never taken for complete. The time for
