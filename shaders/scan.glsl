@@ -3,7 +3,7 @@
 
 shared bool all_have_finished;
 
-// Whether all other workgroups of the dispatch have stored their sums: so for one of them.
+// Returns true in the workgroup that finishes last: all others have stored their sums.
 bool is_last_group() {
     if (gl_LocalInvocationID.x + 1u == gl_WorkGroupSize.x) {  // which has stored that of its own
         memoryBarrierBuffer();
