@@ -28,8 +28,6 @@ const char* to_string(StatusCode code) noexcept {
             return "not_ready";
         case StatusCode::not_executed:
             return "not_executed";
-        case StatusCode::not_recordable:
-            return "not_recordable";
         case StatusCode::too_large:
             return "too_large";
         case StatusCode::no_device:

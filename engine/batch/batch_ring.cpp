@@ -12,9 +12,7 @@ namespace nearfield::batch {
 BatchRing::BatchRing(std::uint32_t frames, const queries::QueryLimits& limits,
                      const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs,
                      render::Renderer* renderer, ShapeStore& shapes)
-    : shapes_(&shapes),
-      planning_(limits, thresholds, jobs),
-      gradient_contacts_(planning_, renderer) {
+    : shapes_(&shapes), planning_(limits, thresholds, jobs) {
     for (std::uint32_t i = 0; i < frames; ++i) {
         frames_.push_back(std::make_unique<Frame>(Frame{BatchRunner(planning_, renderer), {}, i}));
     }
@@ -86,7 +84,6 @@ void BatchRing::trim() noexcept {
             frame->runner.trim();
         }
     }
-    gradient_contacts_.trim();
 }
 
 template <class Start>
@@ -230,10 +227,6 @@ void BatchRing::collect(Ticket ticket, Results& results, Laps& laps) {
     }
     try {
         frame.runner.collect(laps);
-        if (!frame.runner.with_gradient_normals().empty()) {
-            gradient_contacts_.complete(frame.runner);
-            laps.next();
-        }
     } catch (...) {
         release(frame);
         throw;

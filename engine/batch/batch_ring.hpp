@@ -1,7 +1,6 @@
 #pragma once
 
 #include <engine/batch/batch_runner.hpp>
-#include <engine/batch/gradient_contacts.hpp>
 #include <engine/batch/shape_store.hpp>
 #include <nearfield/context.hpp>
 
@@ -121,7 +120,6 @@ private:
 
     ShapeStore* shapes_;
     Planning planning_;
-    GradientContacts gradient_contacts_;
     std::vector<std::unique_ptr<Frame>> frames_;
     std::unique_ptr<BatchRunner> cpu_runner_;  // made when first needed
     std::uint64_t last_number_ = 0;

@@ -82,15 +82,14 @@ void BatchRunner::note_places(const device_input::TileBatch& batch, std::uint32_
 
 /// Divides the queries between the CPU and the device, and plans what the device answers. Those
 /// that are rejected are left to neither.
-void BatchRunner::check_queries(queries::Submissions submissions) {
+void BatchRunner::check_queries() {
     for_cpu_.clear();
     for_device_.clear();
-    results_.results.resize(queries_.size());
     for (std::uint32_t i = 0; i < queries_.size(); ++i) {
         checkpoint();
         const queries::QueryTimer timer(results_.timings.queries, i, &QueryTime::plan);
         queries::CheckedQuery checked;
-        if (queries::check(i, queries_[i], shapes_[i], planning_->limits, submissions, checked,
+        if (queries::check(i, queries_[i], shapes_[i], planning_->limits, checked,
                            results_.results[i])) {
             take(checked);
         }
@@ -122,7 +121,7 @@ void BatchRunner::finish_plan() {
 
 /// Everything up to the recording of tile batches. If the call ends before, nothing is left to do.
 void BatchRunner::begin(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
-                        queries::Submissions submissions, Laps& laps) {
+                        render::SampleRoom room, Laps& laps) {
     if (submission_state() == render::SubmissionState::submitted) {
         slot_->wait();  // for a batch that failed half-way
     }
@@ -132,9 +131,10 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const queries::FindSh
     queries_.assign(queries.begin(), queries.end());
     queries::find_shapes(queries_, find_shape, shapes_);
     expect_answers(queries_.size());
+    resize_results(queries_.size());
     try {
         choose_techniques(queries_, shapes_, planning_->rule);
-        check_queries(submissions);
+        check_queries();
         if (!for_device_.empty()) {
             finish_plan();
         }
@@ -148,9 +148,6 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const queries::FindSh
     }
     timings.plan += laps.next() - timings.localize;
     if (has_device_work()) {
-        const render::SampleRoom room = submissions == queries::Submissions::one
-                                            ? render::SampleRoom::all
-                                            : render::SampleRoom::likely;
         renderer_->prepare(resident_, planning_->planner.search_shapes(), plan_.pairs, room, *slot_,
                            timings);
         laps.next();
@@ -159,7 +156,7 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const queries::FindSh
 
 void BatchRunner::reserve(std::span<const AnyQuery> queries, const queries::FindShape& find_shape) {
     Laps laps;
-    begin(queries, find_shape, queries::Submissions::any, laps);
+    begin(queries, find_shape, render::SampleRoom::likely, laps);
     if (slot_ != nullptr) {
         slot_->release();
     }
@@ -185,7 +182,7 @@ void BatchRunner::solve(Laps& laps) {
 
 void BatchRunner::submit(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
                          Laps& laps, const Submission& order) {
-    begin(queries, find_shape, queries::Submissions::any, laps);
+    begin(queries, find_shape, render::SampleRoom::likely, laps);
     bool is_submitted = has_device_work();
     if (is_submitted) {
         renderer_->submit(*slot_, order, results_.timings);
@@ -209,7 +206,7 @@ void BatchRunner::submit(std::span<const AnyQuery> queries, const queries::FindS
 
 void BatchRunner::record(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
                          Laps& laps, VkCommandBuffer commands, std::uint32_t stamp) {
-    begin(queries, find_shape, queries::Submissions::one, laps);
+    begin(queries, find_shape, render::SampleRoom::all, laps);
     solve(laps);
     if (has_device_work()) {
         renderer_->record(*slot_, commands, stamp, results_.timings);

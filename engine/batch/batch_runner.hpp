@@ -37,7 +37,8 @@ struct Planning {
         : limits(queries::with_affordable_atlas(limits_of_device)),
           rule{limits.techniques, limits.largest_range, thresholds},
           solvers(limits, jobs),
-          planner(limits) {}
+          planner(limits),
+          writer(limits) {}
 };
 
 /// Runs one batch from queries to results, in two steps: everything up to its submission, and the
@@ -61,8 +62,7 @@ public:
     void submit(std::span<const AnyQuery> queries, const queries::FindShape& find_shape, Laps& laps,
                 const Submission& order = {});
     /// The same, but records the tile batches into a command buffer of the host, as the last step:
-    /// if it throws, nothing was recorded. A query that needs a second submission is rejected in
-    /// its own result. `stamp`: see BatchResources::end_recording().
+    /// if it throws, nothing was recorded. `stamp`: see BatchResources::end_recording().
     void record(std::span<const AnyQuery> queries, const queries::FindShape& find_shape, Laps& laps,
                 VkCommandBuffer commands, std::uint32_t stamp);
 
@@ -79,9 +79,8 @@ public:
     }
     /// Returns whether collect() would return without waiting for a submission.
     [[nodiscard]] bool is_done();
-    /// Waits for the device and writes the results; recorded commands have to be done. Gradient
-    /// normals of contacts are left to GradientNormals. If the call ends before, the results that
-    /// are not done say so.
+    /// Waits for the device and writes the results; recorded commands have to be done. If the call
+    /// ends before, the results that are not done say so.
     void collect(Laps& laps);
 
     /// The resident outputs of a query, after submit(). Throws a StatusException that names the
@@ -103,24 +102,14 @@ public:
     }
     /// The number of queries of the last batch that a device answers.
     [[nodiscard]] std::size_t device_queries() const { return for_device_.size(); }
-    /// The plan of these.
-    [[nodiscard]] const device_input::Plan& plan() const { return plan_; }
     /// Replaces `reports` by one on each of their tiles.
     void list_tiles(std::vector<TileReport>& reports) const;
-    /// Contact queries of the device with gradient normals, which are not complete.
-    [[nodiscard]] std::span<const std::uint32_t> with_gradient_normals() const {
-        return for_device_.empty() ? std::span<const std::uint32_t>() : plan_.with_gradient_normals;
-    }
-    /// The points of a planned query, as the device has answered them.
-    [[nodiscard]] QueryPoints points_of(std::uint32_t query) const {
-        return answers_.points_of(plan_, query);
-    }
 
 private:
     void begin(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
-               queries::Submissions submissions, Laps& laps);
+               render::SampleRoom room, Laps& laps);
     [[nodiscard]] bool has_device_work() const;
-    void check_queries(queries::Submissions submissions);
+    void check_queries();
     void take(const queries::CheckedQuery& checked);
     void solve(Laps& laps);
     void solve_what_had_no_room();

@@ -53,7 +53,7 @@ void take_summary(const PenetrationSummary& summary, PenetrationResult& result) 
 }  // namespace
 
 bool ResultWriter::shapes_intersect(const Input& input) {
-    return queries::intersect(input.planned, instances_, overlap_test_);
+    return queries::intersect(input.planned, workspace_.instances, overlap_test_);
 }
 
 void ResultWriter::write(const Input& input, PenetrationResult& result) {
@@ -62,8 +62,9 @@ void ResultWriter::write(const Input& input, PenetrationResult& result) {
         write_searched(input, result);
         return;
     }
-    const queries::PlacedPair pair = queries::place_pair(planned, instances_);
-    resolver_.begin(planned, instances_[pair.a].placed, instances_[pair.b].placed,
+    const queries::PlacedPair pair = queries::place_pair(planned, workspace_.instances);
+    resolver_.begin(planned, workspace_.instances[pair.a].placed,
+                    workspace_.instances[pair.b].placed,
                     input.answers.points_of(input.plan, planned.index));
     if (!std::get<PenetrationQuery>(*planned.query).summary_only) {
         list_penetrations(result);
@@ -87,9 +88,9 @@ void ResultWriter::write_searched(const Input& input, PenetrationResult& result)
     const PlannedQuery& planned = input.planned;
     const FoundPairs& pairs = input.answers.pairs();
     const shaders::PairRowData* const row = pairs.row(planned.index);
-    const queries::PlacedPair pair = queries::place_pair(planned, instances_);
-    const TransformedPolygon& a = instances_[pair.a].placed;
-    const TransformedPolygon& b = instances_[pair.b].placed;
+    const queries::PlacedPair pair = queries::place_pair(planned, workspace_.instances);
+    const TransformedPolygon& a = workspace_.instances[pair.a].placed;
+    const TransformedPolygon& b = workspace_.instances[pair.b].placed;
     if (row != nullptr && FoundPairs::is_summary(*row)) {
         take_summary(resolver_.summarize_penetration(planned, a, b, *row, result.tolerance),
                      result);
@@ -107,7 +108,7 @@ void ResultWriter::write_searched(const Input& input, PenetrationResult& result)
     KnownPair& known = known_[(low * std::size_t{0x9e3779b1} + high) % known_.size()];
     if (known.low != low || known.high != high) {
         known = {low, high,
-                 result.count > 0 || queries::intersect(pair, instances_, overlap_test_)};
+                 result.count > 0 || queries::intersect(pair, workspace_.instances, overlap_test_)};
     }
     result.intersects = result.count > 0 || known.intersects;
 }
@@ -125,16 +126,19 @@ void ResultWriter::write(const Input& input, DistanceFieldResult& result) {
 void ResultWriter::write(const Input& input, ContactResult& result) {
     const PlannedQuery& planned = input.planned;
     const auto& query = std::get<ContactQuery>(*planned.query);
-    if (query.normals == ContactNormals::analytic) {
-        const std::uint32_t reverse = planned.points().reverse;
-        const QueryPoints of_a = input.answers.points_of(input.plan, planned.index);
-        const QueryPoints of_b = input.answers.points_of(input.plan, reverse);
-        if (!query.summary_only) {
-            require_room(planned, of_a.found.size() + of_b.found.size(), sizeof(ContactPoint),
-                         result.tolerance, input.memory);
-        }
-        contact_decoder_.find({planned, of_a}, {input.plan.queries[reverse], of_b}, result.cell,
-                              found_contacts_);
+    const std::uint32_t reverse = planned.points().reverse;
+    const QueryPoints of_a = input.answers.points_of(input.plan, planned.index);
+    const QueryPoints of_b = input.answers.points_of(input.plan, reverse);
+    if (!query.summary_only) {
+        require_room(planned, of_a.found.size() + of_b.found.size(), sizeof(ContactPoint),
+                     result.tolerance, input.memory);
+    }
+    contact_decoder_.find({planned, of_a}, {input.plan.queries[reverse], of_b}, result.cell,
+                          found_contacts_);
+    if (query.normals == ContactNormals::gradient) {
+        result.status = normals_.set(planned, result.cell, workspace_, found_contacts_);
+    }
+    if (result.status.ok()) {
         found_contacts_.write(*planned.a, *planned.b, query, result);
     }
     result.intersects = shapes_intersect(input);
@@ -142,8 +146,8 @@ void ResultWriter::write(const Input& input, ContactResult& result) {
 
 void ResultWriter::write(const Input& input, SeparationResult& result) {
     const PlannedQuery& planned = input.planned;
-    const queries::PlacedPair pair = queries::place_pair(planned, instances_);
-    queries::complete(pair, instances_);
+    const queries::PlacedPair pair = queries::place_pair(planned, workspace_.instances);
+    queries::complete(pair, workspace_.instances);
     double sampled = std::numeric_limits<double>::infinity();
     if (!result.intersects) {
         sampled = sampled_distance(input.plan, planned, input.answers);
@@ -153,8 +157,8 @@ void ResultWriter::write(const Input& input, SeparationResult& result) {
                 sampled, sampled_distance(input.plan, input.plan.queries[reverse], input.answers));
         }
     }
-    closest_.answer(planned, instances_[pair.a], instances_[pair.b], {result.intersects, sampled},
-                    result);
+    closest_.answer(planned, workspace_.instances[pair.a], workspace_.instances[pair.b],
+                    {result.intersects, sampled}, result);
 }
 
 void ResultWriter::write(const Input& input, ClosestPointResult& result) {
@@ -169,7 +173,8 @@ void ResultWriter::write(const device_input::Plan& plan, std::span<const std::ui
                          std::vector<AnyResult>& results) {
     answers.write_drawn_samples(results);
     // Other batches may have been answered in between.
-    instances_.begin_batch();
+    workspace_.instances.begin_batch();
+    workspace_.simplified.clear();
     constexpr std::size_t most = 1024;
     known_.assign(std::bit_ceil(std::min(queries.size(), most)), {});
     for (const std::uint32_t index : queries) {

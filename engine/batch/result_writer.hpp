@@ -7,9 +7,10 @@
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/queries/memory_budget.hpp>
 #include <engine/queries/placed_pair.hpp>
-#include <engine/simd/transformed_edges.hpp>
 #include <engine/solvers/closest_points.hpp>
 #include <engine/solvers/found_contacts.hpp>
+#include <engine/solvers/gradient_normals.hpp>
+#include <engine/solvers/workspace.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -22,10 +23,12 @@ namespace nearfield::batch {
 /// one batch after the other and keeps its memory.
 class ResultWriter {
 public:
-    /// Writes the results of the queries that a device answers, except for the normals of contacts
-    /// that are gradients, and for points that the search had no room for: these are left to the
-    /// CPU. Once the call is interrupted, results are empty and say so. Throws StatusException
-    /// (too_large) if the points that the search has found exceed the memory of the batch.
+    explicit ResultWriter(const queries::QueryLimits& limits) { workspace_.limits = limits; }
+
+    /// Writes the results of the queries that a device answers, except for points that the search
+    /// had no room for: these are left to the CPU. Once the call is interrupted, results are empty
+    /// and say so. Throws StatusException (too_large) if the points that the search has found
+    /// exceed the memory of the batch.
     void write(const device_input::Plan& plan, std::span<const std::uint32_t> queries,
                DeviceAnswers& answers, queries::MemoryBudget& memory,
                std::vector<AnyResult>& results);
@@ -52,11 +55,12 @@ private:
     /// For results of queries that the CPU alone answers.
     void write(const Input& /*input*/, ResultSummary& /*result*/) {}
 
-    simd::TransformedInstances instances_;  // of the batch, made when first needed; large ones kept
+    solvers::Workspace workspace_;
     narrowphase::OverlapTest overlap_test_;
     PointResolver resolver_;
     ContactDecoder contact_decoder_;
     solvers::FoundContacts found_contacts_;
+    solvers::GradientNormals normals_;
     solvers::ClosestSolver closest_;
     /// Two instances of the batch: pairs are often asked about in both orders.
     struct KnownPair {

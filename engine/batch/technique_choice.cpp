@@ -63,8 +63,9 @@ bool may_be_compute(const AnyQuery& query, const queries::QueryShapes& shapes,
     if (std::holds_alternative<DistanceFieldQuery>(query)) {
         return shapes.b == nullptr || shapes.b->size() <= shaders::max_certain_edges;
     }
-    return !std::visit([](const auto& asked) { return queries::takes_a_second_submission(asked); },
-                       query);
+    // The CPU takes the gradients in any case.
+    const auto* const contacts = std::get_if<ContactQuery>(&query);
+    return contacts == nullptr || contacts->normals == ContactNormals::analytic;
 }
 
 /// For what the CPU does not answer; automatic if no other technique does.

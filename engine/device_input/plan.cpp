@@ -7,7 +7,6 @@ void Plan::clear() {
     // write them twice.
     resident.clear();
     pairs.clear();
-    with_gradient_normals.clear();
     tiles.clear();
     points.clear();
     field_points.clear();

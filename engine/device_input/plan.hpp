@@ -119,8 +119,6 @@ struct Plan {
     std::vector<PlannedQuery> queries;
     std::vector<std::uint32_t> resident;  ///< queries whose results stay on the device as well
     GivenPairs pairs;                     ///< that the device searches
-    /// Contact queries with gradient normals.
-    std::vector<std::uint32_t> with_gradient_normals;
     std::vector<PlannedTile> tiles;
     std::vector<PlannedPoint> points;  ///< in order of queries, then along A's rings
     std::vector<queries::PlacedFieldPoint> field_points;  ///< by query, then as in the query

@@ -68,11 +68,6 @@ void Planner::plan_query(const Query& query, const PlanDrawnPoints& plan_drawn,
 template <class Query>
 void Planner::plan_points(const Query& query, const PlanDrawnPoints& plan_drawn,
                           CurrentQuery& current, AnyResult& any) {
-    if constexpr (std::is_same_v<Query, ContactQuery>) {
-        if (query.normals == ContactNormals::gradient) {
-            current.plan.with_gradient_normals.push_back(current.index);
-        }
-    }
     if (current.planned().technique == Technique::raster) {
         plan_drawn(current, any);
     } else if constexpr (!queries::is_left_to_cpu_by_compute<Query>) {

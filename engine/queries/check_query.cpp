@@ -232,13 +232,6 @@ Status check_own(const TimeOfImpactQuery& query) {
     return is_usable(query.end_b) ? Status() : unusable(query.end_b, "B's end pose");
 }
 
-Status not_recordable(Technique technique) {
-    return {StatusCode::not_recordable,
-            std::string("gradient normals by the technique ") + to_string(technique) +
-                " take a second submission, at places that the first one finds; record them with "
-                "the technique cpu or automatic, ask for analytic normals, or submit the batch"};
-}
-
 Status unresolved(double tolerance, double largest_magnitude, double smallest) {
     return invalid("the tolerance " + geometry::number(tolerance) +
                    " is below what double precision resolves at coordinates of " +

@@ -51,9 +51,6 @@ template <class Query>
     return status.ok() ? check_own(query) : status;
 }
 
-/// The error for a query that needs a second submission when there is only one command buffer.
-[[nodiscard]] Status not_recordable(Technique technique);
-
 /// Checks that a pose is usable; `whose` names its owner in the message.
 [[nodiscard]] Status check_pose(const Pose& pose, std::string_view whose);
 

@@ -17,13 +17,9 @@ template <class Query>
 constexpr bool is_of_b_alone = std::is_same_v<Query, DistanceFieldQuery>;
 
 template <class Query>
-Status check_with_shapes(const Query& query, const QueryShapes& shapes, const QueryLimits& limits,
-                         Submissions submissions) {
+Status check_with_shapes(const Query& query, const QueryShapes& shapes, const QueryLimits& limits) {
     if (Status status = check_query(query, limits.techniques); !status.ok()) {
         return status;
-    }
-    if (submissions == Submissions::one && takes_a_second_submission(query)) {
-        return not_recordable(query.technique);
     }
     const bool a_left_out = is_of_b_alone<Query> && query.a.shape == ShapeHandle{};
     if (shapes.a == nullptr && !a_left_out) {
@@ -106,8 +102,7 @@ std::uint64_t max_shape_bytes(const geometry::Polygon& polygon) {
 }
 
 bool check(std::uint32_t index, const AnyQuery& any, const QueryShapes& shapes,
-           const QueryLimits& limits, Submissions submissions, CheckedQuery& checked,
-           AnyResult& any_result) {
+           const QueryLimits& limits, CheckedQuery& checked, AnyResult& any_result) {
     return std::visit(
         [&]<class Query>(const Query& query) {
             auto& result = make_empty<typename Query::Result>(any_result, true);
@@ -120,7 +115,7 @@ bool check(std::uint32_t index, const AnyQuery& any, const QueryShapes& shapes,
             }
             result.technique = query.technique;
             // Success is not copied: thousands of queries have it in common.
-            Status status = check_with_shapes(query, shapes, limits, submissions);
+            Status status = check_with_shapes(query, shapes, limits);
             if (!status.ok()) {
                 result.status = std::move(status);
                 if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {

@@ -10,12 +10,6 @@
 
 namespace nearfield::queries {
 
-/// How many submissions a batch may take.
-enum class Submissions {
-    any,  ///< further ones where the results of the first require it
-    one,  ///< queries that need more are rejected
-};
-
 /// Two shapes at their poses.
 struct ShapePair {
     const geometry::Polygon* a = nullptr;  ///< null for a distance field without a shape A
@@ -44,8 +38,7 @@ struct CheckedQuery : ShapePair {
 /// error in the result. The result is emptied first; it then states what is known of every query:
 /// tolerance, technique, bound and cell.
 [[nodiscard]] bool check(std::uint32_t index, const AnyQuery& any, const QueryShapes& shapes,
-                         const QueryLimits& limits, Submissions submissions, CheckedQuery& checked,
-                         AnyResult& result);
+                         const QueryLimits& limits, CheckedQuery& checked, AnyResult& result);
 
 /// Upper bound on the points of A's boundary that a penetration or contact query, or one direction
 /// of it, examines at any poses. A double, since it may be huge.

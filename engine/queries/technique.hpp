@@ -81,14 +81,4 @@ template <class Query>
         query);
 }
 
-/// Returns whether a query needs a second submission because the first one determines where to
-/// evaluate the rest.
-template <class Query>
-[[nodiscard]] bool takes_a_second_submission(const Query& query) {
-    if constexpr (std::is_same_v<Query, ContactQuery>) {
-        return query.normals == ContactNormals::gradient && query.technique != Technique::cpu;
-    }
-    return false;
-}
-
 }  // namespace nearfield::queries

@@ -39,7 +39,7 @@ void ContactSolver::answer(const queries::CheckedQuery& query, Workspace& worksp
     require_numbers(query, a, b, memory);
     find(a, b, near, memory, result);
     if (asked.normals == ContactNormals::gradient) {
-        take_gradients(query, workspace, result);
+        result.status = normals_.set(query, result.cell, workspace, found_);
     }
     if (!result.status.ok()) {
         return;
@@ -116,25 +116,6 @@ void ContactSolver::for_each_contact(const simd::TransformedEdges& a,
         const double found = found_.count();
         memory.require_alone(kept, found, [found] { return found; });
     });
-}
-
-void ContactSolver::take_gradients(const queries::CheckedQuery& query, Workspace& workspace,
-                                   ContactResult& result) {
-    const auto& asked = std::get<ContactQuery>(*query.query);
-    const std::span<const AnyQuery> fields =
-        normals_.fields_around(found_, asked, Technique::cpu, result.cell);
-    field_results_.resize(fields.size());
-    for (std::uint32_t i = 0; i < fields.size(); ++i) {
-        queries::CheckedQuery field;
-        const queries::QueryShapes shapes{nullptr, query.b};
-        if (queries::check(i, fields[i], shapes, workspace.limits, queries::Submissions::any, field,
-                           field_results_[i])) {
-            // The points are needed for no longer than the contacts.
-            queries::MemoryBudget own(workspace.limits);
-            fields_.answer(field, workspace, own, std::get<DistanceFieldResult>(field_results_[i]));
-        }
-    }
-    result.status = normals_.set(field_results_, found_);
 }
 
 }  // namespace nearfield::solvers

@@ -3,14 +3,11 @@
 #include <engine/narrowphase/boundary.hpp>
 #include <engine/narrowphase/located_points.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/solvers/field.hpp>
 #include <engine/solvers/found_contacts.hpp>
 #include <engine/solvers/gradient_normals.hpp>
 #include <engine/solvers/near_samples.hpp>
 #include <engine/solvers/workspace.hpp>
 #include <nearfield/result.hpp>
-
-#include <vector>
 
 namespace nearfield::solvers {
 
@@ -33,10 +30,6 @@ private:
     /// Finds the contacts of both boundaries.
     void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
               double contact_distance, queries::QueryMemory& memory, ContactResult& result);
-    /// Replaces the normals of what was found by gradients of B's field; the result states the
-    /// error of a field.
-    void take_gradients(const queries::CheckedQuery& query, Workspace& workspace,
-                        ContactResult& result);
 
     NearSamples samples_;
     narrowphase::LocatedPoints located_;  // the samples
@@ -44,8 +37,6 @@ private:
     FoundContacts found_;
     narrowphase::OverlapTest overlap_test_;
     GradientNormals normals_;
-    FieldSolver fields_;  // around contacts
-    std::vector<AnyResult> field_results_;
 };
 
 }  // namespace nearfield::solvers

@@ -39,45 +39,53 @@ void GradientNormals::sort_into_squares(double cell) {
     }
 }
 
-std::span<const AnyQuery> GradientNormals::fields_around(const FoundContacts& found,
-                                                         const ContactQuery& asked,
-                                                         Technique technique, double cell) {
+Status GradientNormals::take_field(const queries::CheckedQuery& query,
+                                   std::span<const Vector2> points, double cell,
+                                   Workspace& workspace, std::size_t first) {
+    const auto& asked = std::get<ContactQuery>(*query.query);
+    DistanceFieldQuery field;
+    field.b = asked.b;
+    field.tolerance = asked.tolerance;
+    field.technique = Technique::cpu;
+    field.gradient = GradientMethod::central_differences;
+    field.values = false;
+    field.points = points;
+    field.rectangle = around(points, cell);
+    field_ = field;
+    queries::CheckedQuery checked;
+    if (queries::check(0, field_, {nullptr, query.b}, workspace.limits, checked, result_)) {
+        // The points are needed for no longer than the contacts.
+        queries::MemoryBudget own(workspace.limits);
+        solver_.answer(checked, workspace, own, std::get<DistanceFieldResult>(result_));
+    }
+    const auto& result = std::get<DistanceFieldResult>(result_);
+    if (!result.status.ok()) {
+        return {result.status.code(),
+                "the field whose gradient is asked for: " + result.status.message()};
+    }
+    for (const FieldPoint& point : result.points) {
+        gradients_[places_[first++].contact] = point.gradient;
+    }
+    return {};
+}
+
+Status GradientNormals::set(const queries::CheckedQuery& query, double cell, Workspace& workspace,
+                            FoundContacts& found) {
     points_.clear();
     found.append_points(points_);
     sort_into_squares(cell);
-    queries_.clear();
+    gradients_.resize(points_.size());
     std::size_t first = 0;
     for (std::size_t i = 1; i <= places_.size(); ++i) {
         if (i < places_.size() && places_[i].column == places_[first].column &&
             places_[i].row == places_[first].row) {
             continue;
         }
-        DistanceFieldQuery field;
-        field.b = asked.b;
-        field.tolerance = asked.tolerance;
-        field.technique = technique;
-        field.gradient = GradientMethod::central_differences;
-        field.values = false;
-        field.points = std::span(sorted_points_).subspan(first, i - first);
-        field.rectangle = around(field.points, cell);
-        queries_.emplace_back(field);
+        const std::span points = std::span(sorted_points_).subspan(first, i - first);
+        if (Status status = take_field(query, points, cell, workspace, first); !status.ok()) {
+            return status;
+        }
         first = i;
-    }
-    return queries_;
-}
-
-Status GradientNormals::set(std::span<const AnyResult> fields, FoundContacts& found) {
-    gradients_.resize(points_.size());
-    std::size_t next = 0;
-    for (const AnyResult& any : fields) {
-        const auto& field = std::get<DistanceFieldResult>(any);
-        if (!field.status.ok()) {
-            return {field.status.code(),
-                    "the field whose gradient is asked for: " + field.status.message()};
-        }
-        for (const FieldPoint& point : field.points) {
-            gradients_[places_[next++].contact] = point.gradient;
-        }
     }
     found.set_normals(gradients_);
     return {};

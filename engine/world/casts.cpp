@@ -71,8 +71,7 @@ struct World::State::Casts {
         impact.contact_distance = query.contact_distance;
         const AnyQuery any = impact;
         queries::CheckedQuery checked;
-        if (queries::check(0, any, {&polygon, &all.polygon(index)}, {}, queries::Submissions::any,
-                           checked, job.result)) {
+        if (queries::check(0, any, {&polygon, &all.polygon(index)}, {}, checked, job.result)) {
             auto& result = std::get<TimeOfImpactResult>(job.result);
             job.impacts.answer(checked, job.workspace, result);
         }

@@ -285,13 +285,10 @@ public:
     /// and reference). No render pass is left open. No object of the host is touched, and no image
     /// of the library is left in a layout that matters.
     ///
-    /// The batch is complete when the host says so: by frame_completed(), or by recording for a
-    /// frame that is Settings::batches_in_flight later, which implies it. Until then its ticket is
-    /// not ready, unless nothing was recorded because the CPU alone answers.
+    /// The batch is complete when the host says so, by frame_completed(), and not before. Until then
+    /// its ticket is not ready, unless nothing was recorded because the CPU alone answers.
     ///
-    /// A query that needs a second submission fails in its own result (not_recordable): contacts
-    /// with gradient normals by the techniques raster and compute. Technique::automatic answers
-    /// them on the CPU. The memory suffices for all samples of intersections.
+    /// The memory suffices for all samples of intersections.
     ///
     /// Fails with invalid_submission if `commands` is null or the frame is already complete, and as
     /// submit() does; nothing has been recorded then, and there is no ticket. `limits` as for
@@ -318,12 +315,11 @@ public:
     /// not_ready and the ticket stays valid; if it is complete and the device did not execute the
     /// commands, with not_executed, which uses up the ticket like every other error.
     ///
-    /// Three kinds of submitted work go to the device a second time here and wait, unless
+    /// Two kinds of submitted work go to the device a second time here and wait, unless
     /// Technique::cpu answers them: intersections with more samples than the buffer had space for
     /// (more than an eighth of the cells and more than ever before in this context; the next batch
-    /// has the space), searches of Technique::compute that found more points than earlier batches
-    /// (the next batch has the space, too), and contacts with gradient normals
-    /// (ContactNormals::gradient), whose field can only be requested once the contacts are known.
+    /// has the space), and searches of Technique::compute that found more points than earlier
+    /// batches (the next batch has the space, too).
     ///
     /// `limits` hold for this call alone. The wait for the device is not cut; if they end the call,
     /// the queries that are not done say so, and the ticket is used up.

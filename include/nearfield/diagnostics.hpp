@@ -58,9 +58,8 @@ enum class GraphFormat {
 /// The tiles of the last batch submitted or recorded, collected or not; costs nothing unless
 /// called. Ordered by query, and within a query by its points or row by row. Empty before the first
 /// batch, after a batch that failed as a whole, and if the CPU answered everything. Points that the
-/// device searches by itself (penetration and contacts by Technique::compute) have none. The field
-/// around contacts with gradient normals, which is a submission of its own, is not included. Fails
-/// only with out_of_memory.
+/// device searches by itself (penetration and contacts by Technique::compute) have none. Fails only
+/// with out_of_memory.
 [[nodiscard]] NEARFIELD_EXPORT Expected<std::vector<TileReport>> list_tiles(const Context& context);
 
 /// Development aid: recompiles the shaders whose sources changed since this context last loaded

@@ -248,7 +248,9 @@ struct DistanceFieldQuery {
 /// The source of contact normals.
 enum class ContactNormals {
     analytic,  ///< the nearest feature: exact
-    gradient,  ///< the paper's: bilinear interpolation of central differences of B's signed field
+    /// The paper's: bilinear interpolation of central differences of B's signed field, which the
+    /// CPU takes around the contacts once they are found.
+    gradient,
 };
 
 /// Contact points and normals: the points of either boundary that are close to the other boundary,

@@ -27,7 +27,6 @@ enum class StatusCode {
     ring_full,           ///< the limit of batches in flight is reached; collect one first
     not_ready,           ///< a recorded batch's frame is not complete, or batches are in flight
     not_executed,        ///< the commands recorded for a batch were never executed
-    not_recordable,      ///< a query needs more than one submission and cannot be recorded
     too_large,           ///< more memory, or a larger output, than a stated limit allows
     no_device,           ///< no Vulkan loader, driver or device, or a context without one
     unsupported_device,  ///< the device does not meet the base; the reasons list everything missing

@@ -18,8 +18,8 @@ struct PassTime {
 };
 
 /// The time of one query, in milliseconds. Work that the queries of a batch share counts for none
-/// of them: the selection of techniques, packing and upload, recording, the lists of points and
-/// samples that come back from the device, and second submissions.
+/// of them: the selection of techniques, packing and upload, recording, and the lists of points and
+/// samples that come back from the device.
 struct QueryTime {
     double plan = 0.0;  ///< in submit() and record(): checks, localisation, tiles and points
     /// On the CPU, in the thread that answered: the whole answer if Technique::cpu gave it,

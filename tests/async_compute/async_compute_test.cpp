@@ -33,7 +33,7 @@ struct Scene {
     }
 
     /// Queries of every kind, by compute and by what is chosen.
-    [[nodiscard]] Batch batch(bool recordable) const {
+    [[nodiscard]] Batch batch() const {
         Batch batch;
         const Instance here{a, {}};
         const Instance there{b, {{0.7, 0.2}, 0.4}};
@@ -41,10 +41,8 @@ struct Scene {
         for (const Technique technique : {Technique::compute, Technique::automatic}) {
             batch.add(PenetrationQuery{here, there, 0.02, {}, false, technique});
             batch.add(ContactQuery{here, there, 0.02, 0.05, {}, false, technique});
-            if (!recordable) {
-                batch.add(ContactQuery{here, there, 0.02, 0.05, ContactNormals::gradient, false,
-                                       technique});
-            }
+            batch.add(
+                ContactQuery{here, there, 0.02, 0.05, ContactNormals::gradient, false, technique});
             batch.add(ClosestPointQuery{here, apart, 0.02, technique});
             batch.add(SeparationQuery{here, apart, 0.02, technique});
             IntersectionQuery overlap{here, there, 0.02};
@@ -159,19 +157,17 @@ TEST_F(AsyncCompute, GivesTheSameAnswersSubmittedAndRecorded) {
     settings.techniques = {.raster = false};
     Scene drawing_scene(drawing(), settings);
     Scene scene(computing());
-    const auto run = [](Scene& in, bool recordable) {
-        return in.numbers(in.context->submit(in.batch(recordable)));
-    };
-    const std::vector<double> submitted = run(scene, false);
+    const auto run = [](Scene& in) { return in.numbers(in.context->submit(in.batch())); };
+    const std::vector<double> submitted = run(scene);
     ASSERT_GT(submitted.size(), 1000U);
-    EXPECT_EQ(submitted, run(drawing_scene, false));
+    EXPECT_EQ(submitted, run(drawing_scene));
     HostFrames host(computing(), 1);
     const Expected<Ticket> ticket =
-        scene.context->record(scene.batch(true), {.commands = host.begin(0), .frame = 0});
+        scene.context->record(scene.batch(), {.commands = host.begin(0), .frame = 0});
     host.submit(0);
     host.wait(0);
     scene.context->frame_completed(0);
-    EXPECT_EQ(scene.numbers(ticket), run(drawing_scene, true));
+    EXPECT_EQ(scene.numbers(ticket), submitted);
 }
 
 TEST_F(AsyncCompute, IsReadByTheFamilyThatDrawsAfterASemaphore) {

@@ -70,8 +70,7 @@ void expect_lost(World& world, Ticket in_flight) {
     EXPECT_EQ(context.submit(world.batch(8)).error().code(), StatusCode::device_lost);
     EXPECT_EQ(context.run(world.batch(8), results).code(), StatusCode::device_lost);
     const Recording recording{.commands = world.driver().begin_commands(), .frame = 100};
-    EXPECT_EQ(context.record(world.recordable(8), recording).error().code(),
-              StatusCode::device_lost);
+    EXPECT_EQ(context.record(world.batch(8), recording).error().code(), StatusCode::device_lost);
     EXPECT_EQ(context.on_device(in_flight, QueryHandle<ContactQuery>{}).error().code(),
               StatusCode::device_lost);
     context.frame_completed(recording.frame);
@@ -252,7 +251,7 @@ TEST(LostDevice, TakesWhatWasRecordedAlong) {
     const Expected<Ticket> submitted = world.context().submit(world.batch(8));
     const VkCommandBuffer commands = world.driver().begin_commands();
     const Expected<Ticket> recorded =
-        world.context().record(world.recordable(9), {.commands = commands, .frame = 1});
+        world.context().record(world.batch(9), {.commands = commands, .frame = 1});
     ASSERT_TRUE(submitted.has_value() && recorded.has_value());
     world.driver().fail("vkWaitForFences", 0, VK_ERROR_DEVICE_LOST, MockDriver::Failing::once);
     Results results;

@@ -30,7 +30,6 @@ TEST(MockDriver, HasNothingToComplainOfALifeWithoutFailures) {
                 EXPECT_EQ(asks("vkCreateBuffer"), is_new);
             }
             EXPECT_EQ(asks("vkCreateImage"), is_new);
-            // This device finds no contacts whose normals a second submission would compute.
             const bool submits =
                 step == World::Step::submit_first || step == World::Step::submit_larger ||
                 step == World::Step::submit_without_work || step == World::Step::submit_last;
@@ -70,7 +69,7 @@ TEST(MockDriver, FindsAllThatWasRecordedThereThoughLaterBatchesAreLarger) {
         Context& context = world.context();
         const VkCommandBuffer commands = world.driver().begin_commands();
         const Expected<Ticket> recorded =
-            context.record(world.recordable(8), {.commands = commands, .frame = 1});
+            context.record(world.batch(8), {.commands = commands, .frame = 1});
         ASSERT_TRUE(recorded.has_value()) << recorded.error().text();
         Results results;
         for (const double cells : {100.0, 200.0}) {

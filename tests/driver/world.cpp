@@ -164,7 +164,7 @@ Status World::submit_for_device(double cells, const Submission& submission) {
 }
 
 Status World::record() {
-    const Batch queries = unwatched([&] { return recordable(larger_cells); });
+    const Batch queries = unwatched([&] { return batch(larger_cells); });
     commands_ = driver_.begin_commands();
     const Expected<Ticket> ticket =
         context_->record(queries, {.commands = commands_, .frame = ++frame_});
@@ -264,21 +264,8 @@ std::vector<double> World::undisturbed(Technique technique) {
     return numbers;
 }
 
-Batch World::recordable(double cells) const {
-    Batch batch;
-    add_recordable(batch, cells, technique_);
-    return batch;
-}
-
 Batch World::batch(double cells, Technique technique) const {
     Batch batch;
-    add_recordable(batch, cells, technique);
-    batch.add(ContactQuery{here(), there(), 1.0 / cells, 0.1, ContactNormals::gradient, false,
-                           technique});
-    return batch;
-}
-
-void World::add_recordable(Batch& batch, double cells, Technique technique) const {
     const double tolerance = 1.0 / cells;
     const Instance apart{b_, {{4.5, 0.4}, 0.3}};
     DistanceFieldQuery field{here(), there(), tolerance};
@@ -332,6 +319,9 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
         field.gradient = GradientMethod::blended;
         batch.add(field);
     }
+    batch.add(
+        ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::gradient, false, technique});
+    return batch;
 }
 
 Batch World::overlap(double cells) const {

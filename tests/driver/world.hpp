@@ -90,8 +90,6 @@ public:
     [[nodiscard]] static std::vector<double> undisturbed(Technique technique);
 
     [[nodiscard]] Batch batch(double cells) const { return batch(cells, technique_); }
-    /// Without the queries that need a second submission.
-    [[nodiscard]] Batch recordable(double cells) const;
     /// One intersection of volumes, with samples.
     [[nodiscard]] Batch overlap(double cells) const;
 
@@ -123,7 +121,6 @@ private:
     [[nodiscard]] bool is_usable(const Resident& resident) const;
     /// One query of each kind that a technique answers, with this many cells per unit.
     [[nodiscard]] Batch batch(double cells, Technique technique) const;
-    void add_recordable(Batch& batch, double cells, Technique technique) const;
     [[nodiscard]] Instance here() const { return {a_, {}}; }
     [[nodiscard]] Instance there() const { return {b_, {{1.2, 0.4}, 0.3}}; }
 

@@ -40,7 +40,7 @@ public:
 
     [[nodiscard]] Context& context() { return *context_; }
     [[nodiscard]] Batch batch(std::uint64_t frame) const {
-        return every_query(a_, b_, static_cast<int>(frame % batches), true);
+        return every_query(a_, b_, static_cast<int>(frame % batches));
     }
     [[nodiscard]] std::vector<double> run(std::uint64_t frame) {
         Results results;

@@ -73,7 +73,7 @@ public:
     [[nodiscard]] Context& context() { return *context_; }
     [[nodiscard]] Instance a() const { return {a_, {}}; }
     [[nodiscard]] Instance b() const { return {b_, {{0.7, 0.1}, 0.3}}; }
-    [[nodiscard]] Batch every() const { return every_query(a_, b_, 1, false); }
+    [[nodiscard]] Batch every() const { return every_query(a_, b_, 1); }
 
     [[nodiscard]] Results answer(const Batch& batch) {
         Results results;

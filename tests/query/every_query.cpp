@@ -6,7 +6,7 @@ namespace {
 
 constexpr Vector2 field_points[] = {{0.1, 0.2}, {-0.3, 0.4}};
 
-void add_points(Batch& batch, const Instance& a, const Instance& b, bool recordable) {
+void add_points(Batch& batch, const Instance& a, const Instance& b) {
     const Instance apart{b.shape, {{3.0, b.pose.translation.y}, b.pose.angle}};
     for (const Technique technique : every_technique) {
         for (const PenetrationPoints points :
@@ -14,9 +14,7 @@ void add_points(Batch& batch, const Instance& a, const Instance& b, bool recorda
             batch.add(PenetrationQuery{a, b, 0.05, points, false, technique});
         }
         batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::analytic, false, technique});
-        if (!recordable || technique == Technique::cpu) {
-            batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::gradient, false, technique});
-        }
+        batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::gradient, false, technique});
         batch.add(SeparationQuery{a, apart, 0.05, technique});
         batch.add(ClosestPointQuery{a, apart, 0.05, technique});
     }
@@ -92,11 +90,11 @@ void add_drawn(Batch& batch, const Instance& a, const Instance& b) {
 
 }  // namespace
 
-Batch every_query(ShapeHandle a, ShapeHandle b, int number, bool recordable) {
+Batch every_query(ShapeHandle a, ShapeHandle b, int number) {
     Batch batch;
     const Instance here{a, {}};
     const Instance there{b, {{0.7, 0.1 * number}, 0.3}};
-    add_points(batch, here, there, recordable);
+    add_points(batch, here, there);
     add_intersections(batch, here, there);
     add_fields(batch, there);
     if (has_raster) {

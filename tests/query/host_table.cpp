@@ -22,8 +22,8 @@ Scene::Scene(Context& owner) : context(&owner) {
     b = *second;
 }
 
-Batch Scene::every(bool recordable) const {
-    return every_query(a, b, 0, recordable);
+Batch Scene::every() const {
+    return every_query(a, b, 0);
 }
 
 Batch Scene::small(double tolerance) const {

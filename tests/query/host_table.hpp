@@ -22,7 +22,7 @@ namespace nearfield::test {
 struct Scene {
     explicit Scene(Context& owner);
 
-    [[nodiscard]] Batch every(bool recordable = false) const;
+    [[nodiscard]] Batch every() const;
     [[nodiscard]] Batch small(double tolerance = 0.1) const;
     [[nodiscard]] Batch on_cpu() const;
 

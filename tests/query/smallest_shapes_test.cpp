@@ -88,7 +88,7 @@ TEST_F(SmallestShapes, AreAnsweredAsLargerOnes) {
     const Expected<ShapeHandle> small_b = context().add_shape(scaled(rings_b));
     ASSERT_TRUE(a.has_value() && b.has_value()) << "as they are";
     ASSERT_TRUE(small_a.has_value() && small_b.has_value()) << small_a.error().text();
-    const Batch batch = every_query(*a, *b, 1, false);
+    const Batch batch = every_query(*a, *b, 1);
     std::vector<std::vector<Vector2>> points;
     points.reserve(batch.queries().size());
     const Batch small_batch = scaled(batch, *a, *b, *small_a, *small_b, points);

@@ -17,8 +17,7 @@ inline std::vector<queries::CheckedQuery> checked_queries(
     results.resize(queries.size());
     for (std::uint32_t i = 0; i < queries.size(); ++i) {
         queries::CheckedQuery checked;
-        if (queries::check(i, queries[i], shapes[i], limits, queries::Submissions::any, checked,
-                           results[i])) {
+        if (queries::check(i, queries[i], shapes[i], limits, checked, results[i])) {
             all.push_back(checked);
         }
     }

@@ -155,7 +155,7 @@ protected:
     /// Every query that can be recorded, and a field in an image of the host's. Only its address
     /// is kept of `target`.
     void ask(const FieldTarget& target) {
-        batch_ = every_query(a_, b_, 0, true);
+        batch_ = every_query(a_, b_, 0);
         DistanceFieldQuery field;
         field.b = {b_, {}};
         field.tolerance = 0.1;

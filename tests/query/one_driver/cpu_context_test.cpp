@@ -37,7 +37,7 @@ Context make_cpu() {
 /// automatic.
 Batch every_query_of_cpu(const Shapes& shapes, Technique technique) {
     Batch batch;
-    const Batch every = every_query(shapes.a, shapes.b, 1, false);
+    const Batch every = every_query(shapes.a, shapes.b, 1);
     for (const AnyQuery& any : every.queries()) {
         std::visit(
             [&](auto query) {

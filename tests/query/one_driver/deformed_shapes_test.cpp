@@ -31,7 +31,7 @@ protected:
     }
     static std::vector<double> answers(Context& context, ShapeHandle a, ShapeHandle b) {
         Results results;
-        Batch batch = every_query(a, b, 1, false);
+        Batch batch = every_query(a, b, 1);
         batch.add(distances(b));
         const Status status = context.run(batch, results);
         EXPECT_TRUE(status.ok()) << status.text();

@@ -11,27 +11,17 @@ constexpr std::uint64_t frame_submissions_seed = 6000;
 
 TEST_F(Frames, TakeOneSubmissionAndOneWaitEach) {
     make(2);
-    Batch one = batch(0);
-    Batch without_gradients;
-    for (const AnyQuery& query : one.queries()) {
-        const auto* const contacts = std::get_if<ContactQuery>(&query);
-        if (contacts == nullptr || contacts->normals == ContactNormals::analytic) {
-            std::visit([&](const auto& same) { without_gradients.add(same); }, query);
-        }
-    }
-    const Ticket first = submit(without_gradients);
-    const Ticket second = submit(without_gradients);
+    const Batch all = batch(0);
+    const Ticket first = submit(all);
+    const Ticket second = submit(all);
     EXPECT_EQ(calls.submissions, 2);
     EXPECT_EQ(calls.waits, 0);
     const std::vector<double> numbers = collect(second);
     EXPECT_EQ(calls.waits, 1);
     EXPECT_EQ(collect(first), numbers);
-    EXPECT_EQ(run(without_gradients), numbers);
+    EXPECT_EQ(run(all), numbers);
     EXPECT_EQ(calls.submissions, 3);
     EXPECT_EQ(calls.waits, 3);
-    // Gradient normals are the documented exception.
-    EXPECT_EQ(collect(submit(one)), run(one));
-    EXPECT_EQ(calls.submissions, 7);
 }
 
 TEST_F(Frames, ThatNeedNoDeviceSubmitNothing) {

@@ -55,8 +55,8 @@ protected:
     }
 
     /// With an intersection whose tile is large enough for an occlusion query.
-    [[nodiscard]] Batch every(bool recordable) const {
-        Batch batch = every_query(a_, b_, 0, recordable);
+    [[nodiscard]] Batch every() const {
+        Batch batch = every_query(a_, b_, 0);
         IntersectionQuery watched{{a_, {}}, {b_, {{0.7, 0.0}, 0.3}}, 0.005};
         watched.technique = Technique::raster;
         watched.summary_only = true;
@@ -204,17 +204,17 @@ private:
 };
 
 TEST_F(Hazards, AreInNoBatch) {
-    run(every(false));
+    run(every());
     check();
 }
 
 TEST_F(Hazards, AreInNoBatchWhoseResultsStay) {
-    run(resident_queries(every(true)));
+    run(resident_queries(every()));
     check();
 }
 
 TEST_F(Hazards, AreInNoQueryThatIsAlone) {
-    const Batch all = every(true);
+    const Batch all = every();
     const Batch whose_results_stay = resident_queries(all);
     for (const Batch* const batch : {&all, &whose_results_stay}) {
         for (const AnyQuery& query : batch->queries()) {
@@ -269,7 +269,7 @@ TEST_F(Hazards, AreInNoDevicePairsThatStayOnTheDevice) {
 }
 
 TEST_F(Hazards, AreInNoFrameOfAHost) {
-    record(every(true));
+    record(every());
     check();
 }
 

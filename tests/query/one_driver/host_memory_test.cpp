@@ -30,7 +30,7 @@ TEST_F(HostTable, DeviceMemoryIsTheHosts) {
         const Scene scene(context);
         HostFrames frames(host(), 1);
         EXPECT_EQ(scene.run(scene.every()), expected);
-        (void)scene.record(scene.every(true), frames, 0);
+        (void)scene.record(scene.every(), frames, 0);
         (void)scene.run(scene.small(0.002));
         EXPECT_EQ(context.memory_use().in_use, allocator.bytes());
         EXPECT_FALSE(allocator.gaps_are_written());

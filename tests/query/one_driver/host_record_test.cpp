@@ -16,7 +16,7 @@ using test_support::HostFrames;
 
 class Recorded : public CountedContext {
 protected:
-    [[nodiscard]] Batch batch(int number) const { return every_query(a_, b_, number, true); }
+    [[nodiscard]] Batch batch(int number) const { return every_query(a_, b_, number); }
     [[nodiscard]] Batch small() const {
         Batch batch;
         batch.add(drawn(IntersectionQuery{{a_, {}}, {b_, {}}, 0.1}));
@@ -159,43 +159,6 @@ TEST_F(Recorded, BatchesAndSubmittedOnesShareImagesInAnyOrder) {
     EXPECT_EQ(collect(third), expected[3]);
     EXPECT_EQ(collect(first), expected[0]);
     EXPECT_EQ(collect(second), expected[1]);
-}
-
-TEST_F(Recorded, QueriesThatTakeASecondSubmissionAreRefusedAlone) {
-    make(2);
-    HostFrames host(host_device(), 1);
-    const Instance here{a_, {}};
-    const Instance there{b_, {{0.7, 0.1}, 0.3}};
-    Batch batch;
-    for (const Technique technique : every_technique) {
-        batch.add(
-            ContactQuery{here, there, 0.05, 0.05, ContactNormals::gradient, false, technique});
-    }
-    Batch automatic = batch;
-    automatic.add(ContactQuery{here, there, 0.05, 0.05, ContactNormals::gradient});
-    automatic.add(PenetrationQuery{here, there, 0.05, {}, false, Technique::raster});
-    const Ticket ticket = record(automatic, host.begin(0), 0);
-    host.submit(0);
-    host.wait(0);
-    counted().frame_completed(0);
-    Results results;
-    ASSERT_TRUE(counted().collect(ticket, results).ok());
-    for (std::size_t i = 0; i < 2; ++i) {
-        const auto& refused = std::get<ContactResult>(results.results[i]);
-        EXPECT_EQ(refused.status.code(), StatusCode::not_recordable);
-        EXPECT_NE(refused.status.message().find(to_string(refused.technique)), std::string::npos)
-            << refused.status.message();
-        EXPECT_TRUE(refused.points.empty());
-    }
-    const auto& by_cpu = std::get<ContactResult>(results.results[2]);
-    const auto& chosen = std::get<ContactResult>(results.results[3]);
-    ASSERT_TRUE(by_cpu.status.ok() && chosen.status.ok());
-    EXPECT_EQ(chosen.technique, Technique::cpu);
-    EXPECT_GT(by_cpu.points.size(), 5U);
-    EXPECT_EQ(chosen.points.size(), by_cpu.points.size());
-    EXPECT_TRUE(std::get<PenetrationResult>(results.results[4]).status.ok());
-    // Submitted batches are all answered.
-    EXPECT_EQ(run(automatic).empty(), false);
 }
 
 TEST_F(Recorded, SamplesHaveRoomHoweverMany) {

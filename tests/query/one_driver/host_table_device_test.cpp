@@ -14,7 +14,7 @@ TEST_F(HostTable, Loader) {
         Context context = make(noting_names(host(), names));
         const Scene scene(context);
         HostFrames frames(host(), 2);
-        EXPECT_EQ(scene.record(scene.every(true), frames, 0), scene.run(scene.every(true)));
+        EXPECT_EQ(scene.record(scene.every(), frames, 0), scene.run(scene.every()));
     }
     EXPECT_GT(names.size(), 70U);
     EXPECT_TRUE(names.contains("vkCreateComputePipelines"));

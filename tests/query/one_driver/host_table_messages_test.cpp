@@ -67,7 +67,7 @@ TEST_F(HostTable, Debugging) {
             << pass.name;
     }
     debugging.labels.clear();
-    (void)scene.record(scene.every(true), frames, 0);
+    (void)scene.record(scene.every(), frames, 0);
     ASSERT_FALSE(debugging.labels.empty());
     EXPECT_EQ(debugging.labels.front(), "nearfield");  // around all commands in the host's buffer
     EXPECT_EQ(debugging.open, 0);

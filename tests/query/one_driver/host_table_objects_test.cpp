@@ -137,11 +137,11 @@ TEST_F(HostTable, MemoryIsTakenFromFewBlocks) {
         const Scene scene(context);
         HostFrames frames(strict.device(), 1);
         (void)scene.run(scene.every());
-        (void)scene.record(scene.every(true), frames, 0);
-        (void)scene.run(resident_queries(scene.every(true)));
+        (void)scene.record(scene.every(), frames, 0);
+        (void)scene.run(resident_queries(scene.every()));
         (void)scene.run(scene.small(0.004));
         context.trim();
-        (void)scene.record(resident_queries(scene.every(true)), frames, 1);
+        (void)scene.record(resident_queries(scene.every()), frames, 1);
     }
     EXPECT_EQ(about_allocations(strict.messages()), std::vector<std::string>{});
     EXPECT_FALSE(strict.messages().empty()) << "best practices are not checked";
@@ -173,7 +173,7 @@ TEST_F(HostTable, Memory) {
         const Scene scene(context);
         HostFrames frames(host(), 1);
         (void)scene.run(scene.every());
-        (void)scene.record(scene.every(true), frames, 0);
+        (void)scene.record(scene.every(), frames, 0);
         const MemoryUse use = context.memory_use();
         EXPECT_GT(use.in_use, 1U << 16U);
         EXPECT_GE(use.peak, use.in_use);
@@ -219,7 +219,7 @@ TEST_F(HostTable, Pipelines) {
         const Scene scene(context);
         HostFrames frames(host(), 1);
         (void)scene.run(scene.every());
-        (void)scene.record(scene.every(true), frames, 0);
+        (void)scene.record(scene.every(), frames, 0);
         EXPECT_EQ(pipelines, at_creation);
     }
     // It still belongs to the host.

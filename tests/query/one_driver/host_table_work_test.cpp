@@ -18,7 +18,7 @@ TEST_F(HostTable, Work) {
         [&](const WatchedCall& call) { submissions += call.name == "vkQueueSubmit" ? 1 : 0; }));
     const Scene scene(context);
     HostFrames frames(host(), 2);
-    const Batch batch = scene.every(true);
+    const Batch batch = scene.every();
     const std::vector<double> submitted = scene.collect(context.submit(batch));
     EXPECT_EQ(submissions, 1);
     EXPECT_EQ(scene.record(batch, frames, 0), submitted);
@@ -36,7 +36,7 @@ TEST_F(HostTable, DescriptorsAreWrittenTogether) {
     }));
     const Scene scene(context);
     HostFrames frames(host(), 1);
-    Batch all = scene.every(true);
+    Batch all = scene.every();
     const Batch staying = resident_queries(all);
     for (const AnyQuery& query : staying.queries()) {
         std::visit([&](const auto& same) { all.add(same); }, query);
@@ -197,7 +197,7 @@ TEST_F(HostTable, Waits) {
         EXPECT_EQ(waits, 0);
         const Scene scene(context);
         HostFrames frames(host(), 2);
-        (void)scene.record(scene.every(true), frames, 0);
+        (void)scene.record(scene.every(), frames, 0);
         (void)scene.record(scene.small(0.002), frames, 1);
         EXPECT_EQ(waits, 0);
         (void)scene.run(scene.small());

@@ -33,7 +33,7 @@ protected:
             add_pairs(*world, {a, b}, table, numbers);
             add_hits(*world, a, rays, near_points, numbers);
             Results results;
-            const Status status = context->run(every_query(a, b, i, false), results);
+            const Status status = context->run(every_query(a, b, i), results);
             EXPECT_TRUE(status.ok()) << status.text();
             const std::vector<double> more = all_numbers(results);
             numbers.insert(numbers.end(), more.begin(), more.end());

@@ -37,7 +37,7 @@ protected:
         Context context = make(loader_->host());
         const Scene scene(context);
         HostFrames frames(host(), 1);
-        Batch all = scene.every(true);
+        Batch all = scene.every();
         IntersectionQuery watched{{scene.a, {}}, {scene.b, {{0.5, 0.0}, 0.3}}, 0.005};
         watched.technique = Technique::raster;
         watched.summary_only = true;
