@@ -82,9 +82,9 @@ void check_structure(const Settings& settings) {
 
 }  // namespace
 
-Context::Context(std::unique_ptr<Implementation> implementation) noexcept
+Context::Context(std::shared_ptr<Implementation> implementation) noexcept
     : implementation_(std::move(implementation)) {}
-Context::Context() noexcept : implementation_(std::make_unique<Implementation>(Settings())) {}
+Context::Context() noexcept : implementation_(std::make_shared<Implementation>(Settings())) {}
 Context::~Context() = default;
 Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
@@ -93,7 +93,7 @@ Expected<Context> Context::create(const HostDevice& host, const Settings& settin
     return catch_to_expected([&] {
         check_structure(host);
         check_structure(settings);
-        return Context(std::make_unique<Implementation>(nullptr, host, settings));
+        return Context(std::make_shared<Implementation>(nullptr, host, settings));
     });
 }
 
@@ -103,14 +103,14 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
         check_structure(settings);
         auto own = std::make_unique<gpu::HeadlessDevice>(options);
         const HostDevice host = own->host();
-        return Context(std::make_unique<Implementation>(std::move(own), host, settings));
+        return Context(std::make_shared<Implementation>(std::move(own), host, settings));
     });
 }
 
 Expected<Context> Context::create_cpu(const Settings& settings) {
     return catch_to_expected([&] {
         check_structure(settings);
-        return Context(std::make_unique<Implementation>(settings));
+        return Context(std::make_shared<Implementation>(settings));
     });
 }
 

@@ -32,8 +32,8 @@ namespace nearfield {
             std::string(call) + ": this context has no device (Context::create_cpu)"};
 }
 
-/// What a context consists of.
-class Context::Implementation {
+/// What a context consists of. Whatever needs a context shares in it, so that it lasts as long.
+class Context::Implementation : public std::enable_shared_from_this<Context::Implementation> {
     /// Everything made from pipelines, and the memory they work on.
     struct Machinery {
         Machinery(const gpu::Device* device, const Settings& settings, batch::ShapeStore& shapes);

@@ -160,9 +160,9 @@ void DevicePairs::start(const char* call, const WorldView& world, const DevicePo
     frame_.reset();
     lacks_room_ = false;
     const world::Instances& instances = world.instances;
-    if (context_ != &world.context || world_.lock() != world.identity) {
+    if (context_.get() != &world.context || world_.lock() != world.identity) {
         start_anew();
-        context_ = &world.context;
+        context_ = world.context.shared_from_this();
         world_ = world.identity;
     }
     set_poses(poses);
@@ -379,10 +379,10 @@ void DevicePairs::collect_recorded() {
 
 bool DevicePairs::is_recorded(const WorldView& world) const {
     const render::Renderer* const renderer = world.context.renderer();
-    return frame_ && !lacks_room_ && context_ == &world.context &&
+    return frame_ && !lacks_room_ && context_.get() == &world.context &&
            world_.lock() == world.identity &&
            instances_.are_those_of(world.context.shapes(), world.instances) &&
-           filters_ == world.instances.filters() && renderer_ == renderer->number();
+           renderer_ == renderer->number();
 }
 
 }  // namespace nearfield

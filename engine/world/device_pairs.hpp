@@ -145,9 +145,10 @@ private:
     const device_input::PairQuestion question_;  // that it asks of the device
     std::optional<DevicePoses> poses_;           // of the host
     batch::PointResolver resolver_;
-    Context::Implementation* context_ = nullptr;
+    std::shared_ptr<Context::Implementation> context_;
     std::weak_ptr<const void> world_;
     std::unique_ptr<render::PairSearchBuffers> buffers_;
+    PairTableCounts reserve_;  // for buffers that are made
     DeviceInstances instances_{query_, question_};
     std::uint32_t rows_ = 0;
     std::vector<Decided> decided_;  // in ascending order of the rows

@@ -348,7 +348,7 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
 void PairTableBase::State::start(const char* call, const WorldView& world,
                                  const PairTableInput& input, const Recording* recording) {
     require_collected(call);
-    context_ = &world.context;
+    context_ = world.context.shared_from_this();
     run_or_start_anew([&] { begin(call, world, input, recording); });
 }
 

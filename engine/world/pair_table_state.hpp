@@ -62,7 +62,7 @@ private:
     void begin(const char* call, const WorldView& world, const PairTableInput& input,
                const Recording* recording);
 
-    Context::Implementation* context_ = nullptr;  // of the last submission
+    std::shared_ptr<Context::Implementation> context_;  // of the last submission
 };
 
 }  // namespace nearfield

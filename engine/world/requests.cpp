@@ -103,9 +103,9 @@ bool WorldRequest::State::pays_on_device(const World::State& world, std::size_t 
 void WorldRequest::State::start(const char* call, const WorldView& world, const WorldFilter& filter,
                                 std::size_t questions) {
     Context::Implementation& with = world.context;
-    if (context_ != &with || world_.lock() != world.identity) {
+    if (context_.get() != &with || world_.lock() != world.identity) {
         forget();
-        context_ = &with;
+        context_ = with.shared_from_this();
         world_ = world.identity;
         jobs_.emplace(with.jobs());
     }

@@ -112,7 +112,7 @@ protected:
     /// The number of questions that a job takes at a time.
     static constexpr std::size_t questions_of_part = 1024;
 
-    Context::Implementation* context_ = nullptr;
+    std::shared_ptr<Context::Implementation> context_;
     std::unique_ptr<render::WorldQueryBuffers> buffers_;
     std::optional<Jobs> jobs_;
     double making_pipelines_ = 0.0;  // milliseconds of the last submission

@@ -9,8 +9,8 @@
 
 namespace nearfield {
 
-World::State::State(Context::Implementation& of)
-    : context(&of), jobs(of.jobs()), scratch(jobs.count()) {}
+World::State::State(std::shared_ptr<Context::Implementation> of)
+    : context(std::move(of)), jobs(context->jobs()), scratch(jobs.count()) {}
 
 void World::State::prepare() {
     view().prepare();
@@ -31,14 +31,14 @@ const geometry::Polygon& World::State::shape(ShapeHandle handle, const char* cal
 
 World::World(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
 World::World(Context& context) noexcept
-    : state_(std::make_unique<State>(*context.implementation_)) {}
+    : state_(std::make_unique<State>(context.implementation_)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 Expected<World> World::create(Context& context) {
     return catch_to_expected(
-        [&] { return World(std::make_unique<State>(*context.implementation_)); });
+        [&] { return World(std::make_unique<State>(context.implementation_)); });
 }
 
 Expected<InstanceHandle> World::add(const WorldInstance& instance) {

@@ -39,7 +39,7 @@ struct World::State {
         AnyResult result;
     };
 
-    explicit State(Context::Implementation& of);
+    explicit State(std::shared_ptr<Context::Implementation> of);
 
     /// Takes in what has changed in the world.
     void prepare();
@@ -65,7 +65,7 @@ struct World::State {
     struct Casts;
     struct Lists;
 
-    Context::Implementation* context;
+    std::shared_ptr<Context::Implementation> context;
     // Another world may come to have the address of this one, but not its identity.
     std::shared_ptr<const void> identity = std::make_shared<char>();
     world::Instances instances;

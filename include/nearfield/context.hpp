@@ -133,21 +133,22 @@ struct MemoryUse {
 /// same device too, as long as their queues are not used at the same time
 /// (HostDevice::queue_access).
 ///
-/// Lifetime: the destructor waits for the batches that the context submitted, and for nothing else
-/// on the device, then frees everything the context created. It does not wait for recorded batches:
-/// the device must have finished them, or never start them, and the host says so by
-/// frame_completed() first. Otherwise the destructor logs an error that names the open frames, and
-/// debug builds of the library end the program (assert). A command buffer that holds a batch of a
-/// destroyed context must not be submitted; it can only be reset or freed.
+/// Lifetime: worlds, tables of pairs and requests keep what they need of their context, so that all
+/// of them can be destroyed in any order. The last of them waits for the batches that the context
+/// submitted, and for nothing else on the device, then frees everything the context created. It
+/// does not wait for recorded batches: the device must have finished them, or never start them, and
+/// the host says so by frame_completed() first. Otherwise the log has an error that names the open
+/// frames, and debug builds of the library end the program (assert). A command buffer that holds a
+/// batch of a destroyed context must not be submitted; it can only be reset or freed.
 ///
 /// Errors: after any error except device_lost the context remains usable. After device_lost, calls
 /// that can fail return device_lost and no more work goes to Vulkan. Destroy the context, which
 /// still frees everything, and create another on another device.
 class NEARFIELD_EXPORT Context {
 public:
-    /// Creates a context on a host's device, which must outlive it. Fails with unsupported_device
-    /// if the device does not meet the base requirements (Status::reasons lists all that it lacks),
-    /// or with invalid_settings, out_of_memory, device_lost or device_error.
+    /// Creates a context on a host's device, which must outlive it and all that keeps it. Fails with
+    /// unsupported_device if the device does not meet the base requirements (Status::reasons lists
+    /// all that it lacks), or with invalid_settings, out_of_memory, device_lost or device_error.
     [[nodiscard]] static Expected<Context> create(const HostDevice& host,
                                                   const Settings& settings = {});
 
@@ -384,8 +385,8 @@ private:
     friend struct ContextAccess;  // of diagnostics.hpp
     friend class World;           // of world.hpp
     friend class WorldRequest;    // of world_request.hpp
-    explicit Context(std::unique_ptr<Implementation> implementation) noexcept;
-    std::unique_ptr<Implementation> implementation_;
+    explicit Context(std::shared_ptr<Implementation> implementation) noexcept;
+    std::shared_ptr<Implementation> implementation_;
 };
 
 }  // namespace nearfield

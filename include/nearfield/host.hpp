@@ -74,8 +74,8 @@ struct MemoryFunctions {
     void (*free)(void* user, const MemoryAllocation* allocation) = nullptr;
 };
 
-/// A host's Vulkan objects. nearfield borrows them: they must outlive the context, which never
-/// destroys them.
+/// A host's Vulkan objects. nearfield borrows them and never destroys them: they must outlive the
+/// context and all that keeps it.
 ///
 /// Context::run, submit and collect may submit to the queue, and nothing else may submit to it at
 /// the same time; set `queue_access` if several threads use the queue. They wait only for the

@@ -38,7 +38,7 @@ class WorldRequest;
 /// object. Many poses, points, segments and pairs are divided among Settings::jobs. Results do not
 /// depend on their number.
 ///
-/// Lifetime: the context must outlive the world.
+/// Lifetime: a world keeps what it needs of its context, whichever is destroyed first.
 ///
 /// Errors: a call that fails does not change the world. Its output is undefined, except for a table
 /// of pairs (update()). Invalid numbers in a query or pose are invalid_query, and the message names

@@ -191,7 +191,7 @@ protected:
 /// memory, on the device too, from update to update, and describes the world as it was at the last
 /// one.
 ///
-/// Threads: as for the world. Lifetime: the world's context must outlive the table. A table
+/// Threads: as for the world. Lifetime: a table keeps what it needs of the world's context. A table
 /// that is destroyed before it is collected waits for the device, but not for what was recorded.
 template <class Query>
 class NEARFIELD_EXPORT PairTable : public PairTableBase {

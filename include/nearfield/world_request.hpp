@@ -21,8 +21,8 @@ namespace nearfield {
 /// A request is best used for inputs of one kind and one world; with another kind or world
 /// everything is uploaded anew. Several answers at a time need several requests.
 ///
-/// Threads: as for the world. Lifetime: the world's context must outlive the request. A request
-/// that is destroyed before it is collected waits for the device.
+/// Threads: as for the world. Lifetime: a request keeps what it needs of the world's context. A
+/// request that is destroyed before it is collected waits for the device.
 ///
 ///     nearfield::WorldRequest rays;
 ///     const nearfield::WorldOptions by_device{.technique = nearfield::Technique::compute};

@@ -1,6 +1,12 @@
 #include <tests/query/check.hpp>
+#include <tests/query/device_pairs.hpp>
 #include <tests/query/query_test.hpp>
+#include <tests/support/numbers.hpp>
 #include <tests/support/pair_tables.hpp>
+
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace nearfield::test {
 namespace {
@@ -55,6 +61,45 @@ TEST_F(Lifetime, TheGraphDescribesItself) {
     PairTable<PenetrationQuery> table({.tolerance = pair.penetration().tolerance}, on_device);
     ASSERT_TRUE(world->update(table).ok());
     begins("boxes of pairs: passes\n", GraphFormat::text);
+}
+
+TEST_F(Lifetime, AContextMayGoBeforeWhatIsMadeOfIt) {
+    for (const Technique technique : {Technique::cpu, Technique::compute}) {
+        SCOPED_TRACE(to_string(technique));
+        std::optional<Context> made(std::move(*Context::create(host_device(), on_demand())));
+        std::optional<World> world(std::in_place, *made);
+        const ShapeHandle square = *made->add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+        const Expected<InstanceHandle> moving = world->add({.shape = square});
+        ASSERT_TRUE(moving.has_value() && world->add({.shape = square, .pose = {{0.5, 0.0}}}));
+        std::optional<PairTable<PenetrationQuery>> updated(
+            std::in_place, PenetrationQuery{.tolerance = 0.05},
+            PairTableOptions{.hits_only = true, .technique = technique});
+        ASSERT_TRUE(world->update(*updated).ok());
+        const std::vector<double> before = numbers_of_table(*updated);
+        std::optional<PairTable<PenetrationQuery>> submitted(
+            std::in_place, PenetrationQuery{.tolerance = 0.05}, updated->options());
+        ASSERT_TRUE(world->submit(*submitted).ok());
+        std::optional<WorldRequest> request(std::in_place);
+        const Segment segment{{-1.0, 0.5}, {2.0, 0.5}};
+        ASSERT_TRUE(world->submit(*request, {&segment, 1}, {.technique = technique}).ok());
+        made.reset();
+
+        EXPECT_EQ(numbers_of_table(*updated), before);
+        EXPECT_TRUE(submitted->collect().ok());
+        EXPECT_EQ(numbers_of_table(*submitted), before);
+        ASSERT_TRUE(world->move(*moving, {{0.1, 0.0}}).ok());
+        EXPECT_TRUE(world->update(*updated).ok());
+        EXPECT_EQ(updated->size(), 2U);
+        EXPECT_NE(numbers_of_table(*updated), before);
+        world.reset();
+        RayHit hit;
+        EXPECT_TRUE(request->collect({&hit, 1}).ok());
+        EXPECT_EQ(hit.parameter, 1.0 / 3.0);
+        EXPECT_EQ(updated->size(), 2U);
+        updated.reset();
+        submitted.reset();
+        request.reset();
+    }
 }
 
 }  // namespace
