@@ -51,10 +51,14 @@ BatchRing::Frame& BatchRing::free_frame() {
             return *frame;
         }
     }
+    const std::string open = open_frames();
     throw StatusException(
-        {StatusCode::ring_full, "batches_in_flight is " + std::to_string(frames_.size()) +
-                                    ", and as many are in flight; collect one of them before "
-                                    "the next batch is submitted"});
+        {StatusCode::ring_full,
+         "batches_in_flight is " + std::to_string(frames_.size()) +
+             ", and as many are in flight; collect one of them before the next batch" +
+             (open.empty() ? ""
+                           : ", once frame_completed() says that its frame is complete (" + open +
+                                 " are not)")});
 }
 
 void BatchRing::release(Frame& frame) {
@@ -138,34 +142,21 @@ void BatchRing::answer(std::span<const AnyQuery> queries, const queries::FindSha
     std::swap(results, cpu_runner_->results());
 }
 
-Status BatchRing::already_complete(std::uint64_t host_frame) const {
-    const std::string last = std::to_string(*complete_);
-    const std::string frames = std::to_string(frames_.size());
-    return {StatusCode::invalid_submission,
-            "Recording::frame is " + std::to_string(host_frame) + ", and frame " + last +
-                (complete_by_host_ ? " and all before it are complete: so the host said by "
-                                     "Context::frame_completed()"
-                                   : " and all before it count as complete, since something was "
-                                     "recorded for frame " +
-                                         std::to_string(*complete_ + frames_.size()) +
-                                         " and batches_in_flight is " + frames)};
-}
-
-void BatchRing::begin_frame(const Recording& recording) {
+void BatchRing::require_open_frame(const Recording& recording) const {
     if (recording.commands == VK_NULL_HANDLE) {
         throw StatusException({StatusCode::invalid_submission, "Recording::commands is null"});
     }
     if (is_complete(recording.frame)) {
-        throw StatusException(already_complete(recording.frame));
-    }
-    if (recording.frame >= frames_.size() && !is_complete(recording.frame - frames_.size())) {
-        complete_ = recording.frame - frames_.size();
-        complete_by_host_ = false;
+        throw StatusException({StatusCode::invalid_submission,
+                               "Recording::frame is " + std::to_string(recording.frame) +
+                                   ", and frame " + std::to_string(*complete_) +
+                                   " and all before it are complete: so the host said by "
+                                   "Context::frame_completed()"});
     }
 }
 
 Ticket BatchRing::record(const Batch& batch, const Recording& recording) {
-    begin_frame(recording);
+    require_open_frame(recording);
     Laps laps;
     return start_batch(
         batch, nullptr, laps, [&](Frame& frame, const queries::FindShape& find_shape) {
@@ -179,7 +170,6 @@ Ticket BatchRing::record(const Batch& batch, const Recording& recording) {
 void BatchRing::complete(std::uint64_t host_frame) {
     if (!is_complete(host_frame)) {
         complete_ = host_frame;
-        complete_by_host_ = true;
     }
 }
 

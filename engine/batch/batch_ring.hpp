@@ -27,12 +27,11 @@ public:
     /// Both halves: writes the results, in whose memory they are made. Throws as submit() and
     /// collect(); nothing of the batch remains then.
     void run(const Batch& batch, Results& results);
-    /// The same, recorded into a command buffer of the host. Throws as begin_frame() too.
+    /// The same, recorded into a command buffer of the host. Throws as require_open_frame() too.
     Ticket record(const Batch& batch, const Recording& recording);
-    /// Precedes all that is recorded for the host, and implies that the device has finished all
-    /// frames that are no longer in flight by then. Throws StatusException (invalid_submission)
+    /// Precedes all that is recorded for the host. Throws StatusException (invalid_submission)
     /// without a command buffer, or if this frame is complete already.
-    void begin_frame(const Recording& recording);
+    void require_open_frame(const Recording& recording) const;
     /// Reports that the device has finished the host's frames up to this one.
     void complete(std::uint64_t host_frame);
     [[nodiscard]] bool is_complete(std::uint64_t host_frame) const {
@@ -84,7 +83,6 @@ public:
     void count_on_from(const BatchRing& former) {
         last_number_ = former.last_number_;
         complete_ = former.complete_;
-        complete_by_host_ = former.complete_by_host_;
     }
 #endif
 
@@ -116,7 +114,6 @@ private:
     Ticket start_batch(const Batch& batch, Results* memory, Laps& laps, const Start& start);
     Ticket submit(const Batch& batch, const Submission& order, Results* memory, Laps& laps);
     void collect(Ticket ticket, Results& results, Laps& laps);
-    [[nodiscard]] Status already_complete(std::uint64_t host_frame) const;
 
     ShapeStore* shapes_;
     Planning planning_;
@@ -125,7 +122,6 @@ private:
     std::uint64_t last_number_ = 0;
     const Frame* last_ = nullptr;            // of the batch started last; null if it failed
     std::optional<std::uint64_t> complete_;  // the last complete frame of the host
-    bool complete_by_host_ = false;          // the host said so; otherwise it follows from a later
 };
 
 }  // namespace nearfield::batch

@@ -805,7 +805,7 @@ Status World::submit(PairTableBase& table, const PairTableInput& input, const Li
 Status World::record(PairTableBase& table, const Recording& recording, const PairTableInput& input,
                      const Limits& limits) {
     return catch_within(limits, [&] {
-        state_->context->ring().begin_frame(recording);
+        state_->context->ring().require_open_frame(recording);
         table.state_->start("record", state_->view(), input, &recording);
     });
 }

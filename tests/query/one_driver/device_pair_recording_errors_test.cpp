@@ -194,17 +194,19 @@ TEST_F(DevicePairRecordingErrors, OfFramesThatAreNotComplete) {
     EXPECT_TRUE(table.is_ready());
     ASSERT_TRUE(table.collect().ok());
     EXPECT_EQ(table.size(), 3U);
-    // What comes two frames later implies it, as with batches.
+    // What is recorded for later frames completes none: not of tables, and not of batches.
     ASSERT_TRUE(own_world_->record(table, {.commands = commands, .frame = 5}).ok());
     frames_->submit(5);
     PairTable other(IntersectionTestQuery{}, on_device);
-    ASSERT_TRUE(record(other, 7).ok());
-    EXPECT_TRUE(table.is_ready());
+    ASSERT_TRUE(record(other, 9).ok());
+    EXPECT_FALSE(table.is_ready());
+    expect(own_world_->update(table), StatusCode::not_ready, "for frame 5, which is not");
+    own_->frame_completed(5);
     ASSERT_TRUE(own_world_->update(table).ok());
     EXPECT_EQ(table.size(), 3U);
     EXPECT_EQ(table.collect().code(), StatusCode::not_ready);
-    frames_->abandon(7);
-    own_->frame_completed(7);
+    frames_->abandon(9);
+    own_->frame_completed(9);
 }
 
 TEST_F(DevicePairRecordingErrors, OfCommandsThatWereNotExecuted) {

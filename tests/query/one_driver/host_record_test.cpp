@@ -80,12 +80,13 @@ TEST_F(Recorded, TicketsAreReadyWhenTheHostSaysSo) {
     EXPECT_EQ(collect(tickets[1]), expected);
     EXPECT_EQ(collect(tickets[0]), expected);
     EXPECT_EQ(counted().collect(tickets[0], results).code(), StatusCode::unknown_ticket);
-    // Recording for frame 15 implies that frame 12 is complete, whatever happens to it.
+    // Recording for a later frame completes none.
     const Expected<Ticket> next =
         counted().record(small(), {.commands = host.begin(15), .frame = 15});
     EXPECT_TRUE(next.has_value()) << next.error().text();
     host.submit(15);
-    EXPECT_TRUE(counted().is_ready(tickets[2]));
+    EXPECT_FALSE(counted().is_ready(tickets[2]));
+    counted().frame_completed(12);
     EXPECT_EQ(collect(tickets[2]), expected);
 }
 
@@ -277,7 +278,34 @@ TEST_F(Recorded, OpenFramesAreNamedWhenTheContextGoes) {
     }
 }
 
-TEST_F(Recorded, FramesThatCountAsCompleteSayWhy) {
+TEST_F(Recorded, AHostThatOnlyRecordsNeedsNoQueue) {
+    HostDevice without_queue = host_device();
+    without_queue.queue = VK_NULL_HANDLE;
+    Expected<Context> made = Context::create(without_queue, on_demand({}));
+    ASSERT_TRUE(made.has_value()) << made.error().text();
+    a_ = *made->add_shape(regular(5));
+    b_ = *made->add_shape(regular(7));
+    HostFrames host(host_device(), 1);
+    Results results;
+    const Expected<Ticket> ticket = made->record(batch(1), {.commands = host.begin(0), .frame = 0});
+    ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
+    host.submit(0);
+    host.wait(0);
+    made->frame_completed(0);
+    ASSERT_TRUE(made->collect(*ticket, results).ok());
+    EXPECT_EQ(results.results.size(), batch(1).queries().size());
+    for (const AnyResult& any : results.results) {
+        std::visit([](const auto& result) { EXPECT_TRUE(result.status.ok()); }, any);
+    }
+    const Status refused = made->run(small(), results);
+    EXPECT_EQ(refused.code(), StatusCode::invalid_submission);
+    EXPECT_NE(refused.message().find("HostDevice::queue is null"), std::string::npos);
+    Batch on_cpu;
+    on_cpu.add(PenetrationQuery{.a = {a_, {}}, .b = {b_, {}}, .tolerance = 0.1});
+    EXPECT_TRUE(made->run(on_cpu, results).ok());
+}
+
+TEST_F(Recorded, FramesThatAreCompleteSaySo) {
     make(3);
     HostFrames host(host_device(), 1);
     const VkCommandBuffer commands = host.begin(0);
