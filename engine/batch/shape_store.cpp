@@ -1,5 +1,6 @@
 #include <engine/batch/shape_store.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace nearfield::batch {
@@ -97,16 +98,31 @@ const geometry::Polygon* ShapeStore::hold(ShapeHandle handle, Held& held) {
     return &version.polygon;
 }
 
+void ShapeStore::release(const Held& held, Version& version) {
+    if (version.last_holder == &held) {
+        version.last_holder = nullptr;
+    }
+    if (--version.holders == 0 && !version.current) {
+        make_spare(version);
+    }
+}
+
 void ShapeStore::release(Held& held) {
     for (Version* const version : held.versions_) {
-        if (version->last_holder == &held) {
-            version->last_holder = nullptr;
-        }
-        if (--version->holders == 0 && !version->current) {
-            make_spare(*version);
-        }
+        release(held, *version);
     }
     held.versions_.clear();
+}
+
+void ShapeStore::release(Held& held, const geometry::Polygon& polygon) {
+    const auto found =
+        std::find_if(held.versions_.begin(), held.versions_.end(),
+                     [&](const Version* version) { return &version->polygon == &polygon; });
+    if (found != held.versions_.end()) {
+        release(held, **found);
+        *found = held.versions_.back();
+        held.versions_.pop_back();
+    }
 }
 
 }  // namespace nearfield::batch

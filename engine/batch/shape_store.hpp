@@ -41,6 +41,8 @@ public:
     const geometry::Polygon* hold(ShapeHandle handle, Held& held);
     /// Releases all held shapes.
     void release(Held& held);
+    /// Releases one of them.
+    void release(Held& held, const geometry::Polygon& polygon);
 
 private:
     struct Version {
@@ -61,6 +63,7 @@ private:
     /// Gives a shape another polygon, or rejects the rings and changes nothing.
     Status replace(std::uint32_t index, std::span<const Ring> rings, double deviation);
     void retire(Version& version);
+    void release(const Held& held, Version& version);
     void make_spare(Version& version);
 
     ShapeErrors errors_{next_owner_number()};

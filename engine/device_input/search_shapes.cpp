@@ -84,6 +84,36 @@ void SearchShapes::clear() {
     units_.clear();
     units_in_use_ = 0;
     ++revision_;
+    forget_changes();
+}
+
+/// Whoever knows an earlier revision takes all units.
+void SearchShapes::forget_changes() {
+    change_count_ = 0;
+    changes_since_ = revision_;
+}
+
+void SearchShapes::note_change(std::uint32_t first, std::uint32_t count) {
+    if (change_count_ == changes_.size()) {
+        forget_changes();
+    }
+    changes_[change_count_++] = {++revision_, first, count};
+}
+
+void SearchShapes::copy_changes(std::uint64_t since, std::span<std::byte> memory) const {
+    const auto bytes = std::as_bytes(std::span(units_));
+    if (since == 0 || since < changes_since_) {
+        std::copy(bytes.begin(), bytes.end(), memory.begin());
+        return;
+    }
+    for (const Change& change : std::span(changes_).first(change_count_)) {
+        if (change.revision > since) {
+            const std::size_t first = sizeof(SearchUnit) * change.first;
+            const auto part = bytes.subspan(first, sizeof(SearchUnit) * change.count);
+            std::copy(part.begin(), part.end(),
+                      memory.begin() + static_cast<std::ptrdiff_t>(first));
+        }
+    }
 }
 
 SearchShapes::Entry& SearchShapes::entry_of(const Key& key) {
@@ -128,7 +158,7 @@ std::uint32_t SearchShapes::find_or_make(const Key& key) {
             made_[shaders::unit_of_rings][1] += 4 * entry.first;
         }
         std::copy(made_.begin(), made_.end(), units_.begin() + entry.first);
-        ++revision_;
+        note_change(entry.first, count);
         entry.revision = key.polygon->revision();
     }
     if (entry.batch != batch_) {

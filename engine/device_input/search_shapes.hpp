@@ -48,8 +48,10 @@ public:
     }
 
     [[nodiscard]] std::span<const SearchUnit> units() const { return units_; }
-    /// Differs if a unit may have changed.
+    /// Differs if a unit may have changed; never 0 where there are any.
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
+    /// Copies to the memory of all units those that have changed since a revision. 0: all of them.
+    void copy_changes(std::uint64_t since, std::span<std::byte> memory) const;
 
 private:
     enum class Content : std::uint8_t { shape, field, parts };
@@ -76,6 +78,15 @@ private:
         Entry* entry = nullptr;
     };
 
+    /// Units that were written.
+    struct Change {
+        std::uint64_t revision = 0;
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+    };
+
+    void note_change(std::uint32_t first, std::uint32_t count);
+    void forget_changes();
     void drop_unused();
     [[nodiscard]] Entry& entry_of(const Key& key);
     [[nodiscard]] std::uint32_t find_or_make(const Key& key);
@@ -102,6 +113,9 @@ private:
     };
     std::vector<OrderedRing> rings_;
     std::uint64_t revision_ = 0;
+    std::array<Change, 256> changes_;  // the last ones, in order
+    std::size_t change_count_ = 0;
+    std::uint64_t changes_since_ = 0;  // the revision before the first of them
     std::uint64_t batch_ = 0;
     std::size_t units_in_use_ = 0;  // by the present batch
 };

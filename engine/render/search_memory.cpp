@@ -50,16 +50,16 @@ ShapeBuffer::ShapeBuffer(const gpu::Device& device)
               gpu::Direction::upload, "nearfield pair shapes") {}
 
 bool ShapeBuffer::upload(const device_input::SearchShapes& shapes) {
-    const auto bytes = std::as_bytes(shapes.units());
-    const bool is_new = buffer_.reserve(bytes.size());
+    const std::size_t bytes = shapes.units().size_bytes();
+    const bool is_new = buffer_.reserve(bytes);
     if (!is_new && shapes.revision() == revision_) {
         return false;
     }
-    std::copy(bytes.begin(), bytes.end(), buffer_.data());
+    shapes.copy_changes(is_new ? 0 : revision_, {buffer_.data(), bytes});
     buffer_.flush();
     revision_ = shapes.revision();
-    const bool is_other = is_new || bytes_ != bytes.size();
-    bytes_ = bytes.size();
+    const bool is_other = is_new || bytes_ != bytes;
+    bytes_ = bytes;
     return is_other;
 }
 

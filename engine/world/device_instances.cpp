@@ -157,10 +157,13 @@ const DeviceInstances::ShapeOfInstances& DeviceInstances::add_shape(batch::Shape
         shapes_of_.resize(handle.index + std::size_t{1});
     }
     ShapeOfInstances& shape = shapes_of_[handle.index];
-    if (shape.polygon != nullptr) {
+    if (shape.polygon != nullptr && shape.polygon == shapes.find(handle)) {
         return shape;
     }
     const geometry::Polygon& polygon = *shapes.hold(handle, held_);
+    if (shape.polygon != nullptr) {
+        shapes.release(held_, *shape.polygon);
+    }
     const bool is_left_to_cpu = is_for_cpu(polygon);
     shape.data = device_input::data_of_shape(polygon);
     shape.data.left_to_cpu = is_left_to_cpu ? shaders::left_by_shape : 0;
@@ -207,20 +210,88 @@ void DeviceInstances::place_all(batch::ShapeStore& shapes, const world::Instance
 void DeviceInstances::update(const char* call, batch::ShapeStore& shapes,
                              const world::Instances& instances, const std::optional<Vector>& origin,
                              render::InstanceBuffers& buffers) {
-    if (are_those_of(shapes, instances)) {
+    const bool are_same = are_all_of(shapes, instances);
+    membership_ = 0;  // until all went well
+    if (!are_same) {
+        ++content_;
+        list(call, shapes, instances);
         if (!entries_.empty()) {
-            place_moved(instances, buffers);
+            buffers.reserve(size());
+            place_all(shapes, instances, origin, buffers);
         }
-        return;
-    }
-    membership_ = 0;
-    list(call, shapes, instances);
-    if (!entries_.empty()) {
-        buffers.reserve(size());
-        place_all(shapes, instances, origin, buffers);
+    } else if (!entries_.empty()) {
+        if (shapes_revision_ != shapes.revision()) {
+            replace_shapes(shapes);
+        }
+        place_moved(instances, buffers);
     }
     membership_ = instances.membership();
     shapes_revision_ = shapes.revision();
+    filters_ = instances.filters();
+}
+
+/// Whether they are all instances whose shapes exist.
+bool DeviceInstances::are_all_of(batch::ShapeStore& shapes,
+                                 const world::Instances& instances) const {
+    if (membership_ == 0) {
+        return false;
+    }
+    if (membership_ == instances.membership() && shapes_revision_ == shapes.revision()) {
+        return true;
+    }
+    const auto exists = [&](std::uint32_t index) {
+        return instances.is_present(index) && shapes.find(instances[index].shape) != nullptr;
+    };
+    std::size_t count = 0;
+    for (std::uint32_t index = 0; index < instances.size(); ++index) {
+        count += exists(index) ? 1U : 0U;
+    }
+    bool are_all = count == entries_.size();
+    for (std::uint32_t number = 0; are_all && number < count; ++number) {
+        const std::uint32_t index = indices_[number];
+        are_all = exists(index) && instances.handle(index) == entries_[number].handle;
+    }
+    return are_all;
+}
+
+bool DeviceInstances::are_those_of(batch::ShapeStore& shapes,
+                                   const world::Instances& instances) const {
+    if (!are_all_of(shapes, instances)) {
+        return false;
+    }
+    if (shapes_revision_ == shapes.revision() && filters_ == instances.filters()) {
+        return true;
+    }
+    for (std::uint32_t number = 0; number < entries_.size(); ++number) {
+        const Entry& entry = entries_[number];
+        const WorldInstance& instance = instances[indices_[number]];
+        if (!has_current_shape(shapes, entry) || entry.category != instance.category ||
+            entry.mask != instance.mask) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Those with other rings than at the last update, whose instances are placed anew.
+void DeviceInstances::replace_shapes(batch::ShapeStore& shapes) {
+    bool are_others = false;
+    for (std::uint32_t number = 0; number < entries_.size(); ++number) {
+        if (!has_current_shape(shapes, entries_[number])) {
+            moves_[number] = not_placed;
+            are_others = true;
+        }
+    }
+    if (!are_others) {
+        return;
+    }
+    ++content_;
+    all_moves_ = not_placed;
+    for (std::uint32_t number = 0; number < entries_.size(); ++number) {
+        if (moves_[number] == not_placed) {
+            static_cast<void>(add_shape(shapes, entries_[number].instance.shape));
+        }
+    }
 }
 
 void DeviceInstances::order(const world::Instances& instances, bool may_move,

@@ -66,10 +66,8 @@ public:
     /// another one after that.
     void order(const world::Instances& instances, bool may_move, render::InstanceBuffers& buffers);
     /// Whether those of the last update are those of a world as it is, but for their poses.
-    [[nodiscard]] bool are_those_of(const batch::ShapeStore& shapes,
-                                    const world::Instances& instances) const {
-        return membership_ == instances.membership() && shapes_revision_ == shapes.revision();
-    }
+    [[nodiscard]] bool are_those_of(batch::ShapeStore& shapes,
+                                    const world::Instances& instances) const;
 
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(entries_.size()); }
     [[nodiscard]] const Entry& operator[](std::uint32_t number) const { return entries_[number]; }
@@ -84,9 +82,8 @@ public:
     }
     [[nodiscard]] const geometry::Vector& origin() const { return origin_; }
     [[nodiscard]] const device_input::SearchShapes& shapes() const { return shapes_; }
-    /// Differs after instances were listed anew.
-    [[nodiscard]] std::uint64_t membership() const { return membership_; }
-    [[nodiscard]] std::uint64_t shapes_revision() const { return shapes_revision_; }
+    /// Differs after instances were listed anew, or the rings of any have changed.
+    [[nodiscard]] std::uint64_t content() const { return content_; }
     /// Puts an instance at a pose that the host wrote.
     void take_pose(std::uint32_t number, const Pose& pose, const SineCosine& turn);
 
@@ -96,6 +93,12 @@ private:
     /// only cost time.
     static constexpr std::uint32_t max_updates_in_order = 64;
 
+    [[nodiscard]] bool are_all_of(batch::ShapeStore& shapes,
+                                  const world::Instances& instances) const;
+    [[nodiscard]] bool has_current_shape(batch::ShapeStore& shapes, const Entry& entry) const {
+        return shapes.find(entry.instance.shape) == polygon_of(entry.instance.shape);
+    }
+    void replace_shapes(batch::ShapeStore& shapes);
     void list(const char* call, batch::ShapeStore& shapes, const world::Instances& instances);
     void place(const world::Instances& instances, std::span<const std::uint32_t> numbers,
                render::InstanceBuffers& buffers);
@@ -114,8 +117,11 @@ private:
     std::vector<std::uint64_t> moves_;         // of these, in one piece
     std::vector<std::uint32_t> indices_;       // of these in the world
     std::vector<ShapeOfInstances> shapes_of_;  // by the index of a shape's handle
-    std::uint64_t membership_ = 0;             // of the world, at the last update
+    // Of the world, at the last update.
+    std::uint64_t membership_ = 0;
     std::uint64_t shapes_revision_ = 0;
+    std::uint64_t filters_ = 0;
+    std::uint64_t content_ = 0;
     std::uint64_t all_moves_ = 0;  // of the instances, when they were placed
     geometry::HilbertOrder hilbert_order_;
     std::vector<Vector2> places_;         // of the instances

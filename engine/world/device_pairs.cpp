@@ -178,12 +178,11 @@ void DevicePairs::start(const char* call, const WorldView& world, const DevicePo
         renderer_ = renderer.number();
         instances_.forget_places();
     }
-    const bool is_same = instances_.are_those_of(context_->shapes(), instances);
-    are_poses_taken_ = are_poses_taken_ && is_same;
+    const std::uint64_t content = instances_.content();
     instances_.update(call, context_->shapes(), instances,
                       poses_ ? std::optional(geometry::to_vector(poses_->origin)) : std::nullopt,
                       buffers_->world());
-    filters_ = instances.filters();
+    are_poses_taken_ = are_poses_taken_ && content == instances_.content();
     find_poses(call);
     const passes::ExportPairs* const exports =
         question_.on_device ? &renderer.export_pairs() : nullptr;

@@ -164,7 +164,6 @@ private:
     ContactResult contacts_;
     narrowphase::OverlapTest overlap_test_;
     simd::TransformedInstances edges_;
-    std::uint64_t filters_ = 0;           // of the world, at the last update
     std::optional<std::uint64_t> frame_;  // of the host, that it was recorded for
     std::uint32_t renderer_ = 0;          // number of that of the last update
     bool are_poses_taken_ = false;        // by the device, of the present instances

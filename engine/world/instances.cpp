@@ -78,6 +78,10 @@ void Instances::move(std::span<const InstanceHandle> instances, std::span<const 
 }
 
 void Instances::set_filter(std::uint32_t index, std::uint32_t category, std::uint32_t mask) {
+    const WorldInstance& instance = entries_[index].instance;
+    if (instance.category == category && instance.mask == mask) {
+        return;
+    }
     note_change(index);
     ++entries_[index].moves;
     ++all_moves_;

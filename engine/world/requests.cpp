@@ -121,9 +121,9 @@ void WorldRequest::State::start(const char* call, const WorldView& world, const 
         instances_.forget_places();
     }
     making_pipelines_ = renderer.pipeline_milliseconds() - made;
-    const bool are_others = !instances_.are_those_of(with.shapes(), world.instances);
+    const std::uint64_t content = instances_.content();
     instances_.update(call, with.shapes(), world.instances, {}, buffers_->world());
-    if (are_others) {
+    if (content != instances_.content()) {
         for_cpu_.reset();
         placed_.reset(instances_.size());
     }
@@ -184,8 +184,7 @@ const world::Instances& WorldRequest::State::instances_for_cpu() {
         }
         moves_for_cpu_[i] = instances_.moves(i);
     }
-    for_cpu_->prepare([this](ShapeHandle shape) { return instances_.polygon_of(shape); },
-                      instances_.shapes_revision());
+    for_cpu_->prepare([this](ShapeHandle shape) { return instances_.polygon_of(shape); }, 0);
     return *for_cpu_;
 }
 

@@ -21,8 +21,10 @@ public:
 
     /// Uniform in [low, high).
     double between(double low, double high);
-    /// An integer, uniform in [low, high).
+    /// An integer, uniform in [low, high].
     int whole(int low, int high);
+    /// An integer, uniform in [0, end).
+    std::uint32_t below(std::uint32_t end);
     /// Uniform on a logarithmic scale; low > 0.
     double scale(double low, double high);
 
@@ -49,6 +51,8 @@ Rings coast(Random& random, int n, double roughness);
 Rings tangle(Random& random, int n);
 /// The five-pointed star drawn in one line; its middle is outside.
 Rings pentagram();
+/// Regular pentagons inside each other: boxes do not tell their edges apart.
+Rings nested_pentagons(int rings);
 /// Two triangles that share one vertex, as one ring.
 Rings bow_tie();
 /// A star with holes; some are tiny.

@@ -76,6 +76,37 @@ TEST_F(DevicePairSubmissions, TellOfTheWorldAsItWas) {
     EXPECT_EQ(numbers_of_table(by_halves), expected);
 }
 
+/// Where a few shapes of many deform, only these are uploaded.
+TEST_F(DevicePairSubmissions, OfShapesThatDeformAreThoseOfANewTable) {
+    Random random(device_pair_submissions_seed);
+    std::vector<ShapeHandle> shapes;
+    for (int i = 0; i < 30; ++i) {
+        shapes.push_back(*context().add_shape(star(random, 20, 0.5)));
+        for (int j = 0; j < 3; ++j) {
+            add(shapes.back(),
+                {.translation = {random.between(0.0, 6.0), random.between(0.0, 6.0)}});
+        }
+    }
+    PairTable kept(submitted_penetrations, on_device);
+    for (int frame = 0; frame < 12; ++frame) {
+        SCOPED_TRACE(frame);
+        for (int i = 0; i < frame % 4; ++i) {
+            const ShapeHandle shape = shapes[static_cast<std::size_t>(random.whole(0, 29))];
+            const Rings rings = star(random, random.whole(5, 60), 0.5);
+            const Status status = context().update_shape(shape, rings);
+            ASSERT_TRUE(status.ok()) << status.text();
+        }
+        ASSERT_TRUE(world().update(kept).ok());
+        PairTable fresh(submitted_penetrations, on_device);
+        ASSERT_TRUE(world().update(fresh).ok());
+        EXPECT_GT(fresh.size(), 50U);
+        EXPECT_EQ(numbers_of_table(kept), numbers_of_table(fresh));
+    }
+    for (const ShapeHandle shape : shapes) {
+        ASSERT_TRUE(context().remove_shape(shape).ok());
+    }
+}
+
 /// The rows of the frame before can be read while the device works at the next.
 TEST_F(DevicePairSubmissions, TakeTurns) {
     Random random(device_pair_submissions_seed);
