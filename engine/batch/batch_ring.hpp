@@ -66,6 +66,8 @@ public:
         }
         return layout;
     }
+    /// The solvers, for queries of the technique `cpu` that are no batch.
+    [[nodiscard]] solvers::SolverJobs& solvers() { return planning_.solvers; }
     /// Drops the device memory that no batch in flight uses.
     void trim() noexcept;
     /// Lists the tiles of the batch started last.

@@ -53,6 +53,23 @@ void BatchRunner::begin_timings(std::size_t queries) {
     }
 }
 
+/// Results of a batch larger than this one wait for the next such batch.
+void BatchRunner::resize_results(std::size_t queries) {
+    std::vector<AnyResult>& results = results_.results;
+    while (results.size() > queries) {
+        spare_results_.push_back(std::move(results.back()));
+        results.pop_back();
+    }
+    while (results.size() < queries) {
+        if (spare_results_.empty()) {
+            results.resize(queries);
+            break;
+        }
+        results.push_back(std::move(spare_results_.back()));
+        spare_results_.pop_back();
+    }
+}
+
 void BatchRunner::make_tile_batches() {
     std::span<const device_input::ComputeBatch> computed;
     if (slot_ != nullptr) {
@@ -141,7 +158,6 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const queries::FindSh
     } catch (const Interrupted& interrupted) {
         for_cpu_.clear();
         for_device_.clear();
-        results_.results.resize(queries_.size());
         for (std::size_t i = 0; i < queries_.size(); ++i) {
             queries::make_refused(queries_[i], interrupted.status(), results_.results[i]);
         }

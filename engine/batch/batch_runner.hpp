@@ -114,6 +114,7 @@ private:
     void solve(Laps& laps);
     void solve_what_had_no_room();
     void begin_timings(std::size_t queries);
+    void resize_results(std::size_t queries);
     void time_device();
     [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
     void make_tile_batches();
@@ -142,6 +143,7 @@ private:
     device_input::ResidentOutputs resident_;
     DeviceAnswers answers_;
     Results results_;
+    std::vector<AnyResult> spare_results_;  // with memory, of larger batches
     bool times_queries_ = false;
     Stopwatch submitted_;
     std::optional<double> device_milliseconds_;  // from submission until completion was observed

@@ -92,4 +92,18 @@ void SolverJobs::answer(std::span<const CheckedQuery> queries, double other_byte
     });
 }
 
+void SolverJobs::begin_batch(std::size_t questions, queries::MemoryBudget& memory) {
+    const std::size_t parts = (questions + questions_of_a_part - 1) / questions_of_a_part;
+    for (std::size_t job = 0; job < std::min(parts, solvers_.size()); ++job) {
+        solvers_[job]->begin_batch(memory);
+    }
+}
+
+void SolverJobs::answer(std::uint32_t job, Question& question) {
+    queries::CheckedQuery checked;
+    if (queries::check(0, question.query, question.shapes, limits_, checked, question.result)) {
+        solvers_[job]->answer(checked, question.result);
+    }
+}
+
 }  // namespace nearfield::solvers

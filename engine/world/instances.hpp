@@ -117,6 +117,10 @@ public:
     [[nodiscard]] const geometry::Polygon& polygon(std::uint32_t index) const {
         return *kept_[index]->polygon;
     }
+    /// Null if its shape was removed.
+    [[nodiscard]] const geometry::Polygon* find_polygon(std::uint32_t index) const {
+        return kept_[index]->polygon;
+    }
     /// Its complete edges, in world coordinates.
     [[nodiscard]] const simd::TransformedEdges& edges(std::uint32_t index) const {
         return with_edges(index).edges[0];

@@ -83,6 +83,18 @@ private:
     std::vector<Element> before_;  // memory for compact()
 };
 
+/// What a result lists, if its kind lists anything.
+template <class Result>
+const auto& points_of(const Result& result) requires requires {
+    result.points;
+}
+{ return result.points; }
+template <class Result>
+const auto& points_of(const Result& result) requires requires {
+    result.samples;
+}
+{ return result.samples; }
+
 /// Rows, and where their lists are; of queries without lists there are no slices.
 template <class Query>
 struct Content {
@@ -123,15 +135,22 @@ struct Pair {
     std::uint32_t b = 0;
 };
 
-/// What one job needs to answer pairs without a batch.
+/// What one job needs to answer pairs in place.
 struct Job {
     narrowphase::OverlapTest overlap_test;
     std::optional<solvers::PenetrationSolver> penetration;  // whose construction may fail
     PenetrationResult result;
 };
 
+/// The lists that one job has found.
+template <class Query>
+struct JobLists {
+    RowLists<typename Query::Result::Point> points;
+    RowLists<ContactCluster> manifolds;
+};
+
 /// Whether the CPU answers these queries from what the world keeps of its instances, which is
-/// quicker than a batch.
+/// quicker.
 static bool is_answered_in_place(const IntersectionTestQuery& /*query*/) {
     return true;
 }
@@ -614,7 +633,11 @@ private:
                 return;
             }
         }
-        answer_by_batches(world, query, count, pair_of);
+        if (is_by_cpu) {
+            answer_by_solvers(world, query, count, pair_of);
+        } else {
+            answer_by_batches(world, query, count, pair_of);
+        }
     }
 
     template <class PairOf>
@@ -638,6 +661,73 @@ private:
                       });
     }
 
+    void set_pair(const world::Instances& instances, const table::Pair& pair, Query& query) const {
+        const WorldInstance& a = instances[pair.a];
+        const WorldInstance& b = instances[pair.b];
+        query.a = {a.shape, a.pose};
+        query.b = {b.shape, b.pose};
+        if constexpr (has_motions) {
+            query.end_a = motions_.end(pair.a);
+            query.end_b = motions_.end(pair.b);
+        }
+    }
+
+    template <class PairOf>
+    void answer_by_solvers(const WorldView& world, const Query& query, std::size_t count,
+                           const PairOf& pair_of) {
+        solvers::SolverJobs& solvers = world.context.ring().solvers();
+        const world::Instances& instances = world.instances;
+        answered_.clear();
+        answered_.rows.resize(count);
+        answered_.records.resize(has_points ? count : 0);
+        answered_.manifolds.resize(has_manifold ? count : 0);
+        job_of_.resize(count);
+        questions_.resize(solvers.jobs());
+        lists_.resize(solvers.jobs());
+        for (table::JobLists<Query>& lists : lists_) {
+            lists.points.clear();
+            lists.manifolds.clear();
+        }
+        expect_answers(count);
+        solvers.answer_each(
+            count, questions_,
+            [&](std::size_t i, solvers::SolverJobs::Question& question) {
+                const table::Pair pair = pair_of(i);
+                answered_.rows[i].a = instances.handle(pair.a);
+                answered_.rows[i].b = instances.handle(pair.b);
+                if (!std::holds_alternative<Query>(question.query)) {
+                    question.query = query;
+                }
+                auto& asked = std::get<Query>(question.query);
+                asked = query;
+                set_pair(instances, pair, asked);
+                question.shapes = {instances.find_polygon(pair.a), instances.find_polygon(pair.b)};
+            },
+            [&](std::uint32_t job, std::size_t i, AnyResult& any) {
+                const auto& result = *std::get_if<typename Query::Result>(&any);
+                Row& row = answered_.rows[i];
+                row = row_of<Query>(row.a, row.b, result);
+                row.index = static_cast<std::uint32_t>(i);
+                job_of_[i] = job;
+                if constexpr (has_points) {
+                    const auto& points = table::points_of(result);
+                    row.point_count = static_cast<std::uint32_t>(points.size());
+                    answered_.records[i] = lists_[job].points.add(points);
+                }
+                if constexpr (has_manifold) {
+                    answered_.manifolds[i] = lists_[job].manifolds.add(result.manifold);
+                }
+            });
+        for (std::size_t i = 0; i < answered_.records.size(); ++i) {
+            table::Slice& slice = answered_.records[i];
+            slice = points_of_rows_.add(lists_[job_of_[i]].points[slice]);
+        }
+        for (std::size_t i = 0; i < answered_.manifolds.size(); ++i) {
+            table::Slice& slice = answered_.manifolds[i];
+            slice = manifolds_of_rows_.add(lists_[job_of_[i]].manifolds[slice]);
+        }
+    }
+
     template <class PairOf>
     void answer_by_batches(const WorldView& world, Query query, std::size_t count,
                            const PairOf& pair_of) {
@@ -648,14 +738,7 @@ private:
             pairs_of_batch_.clear();
             for (std::size_t i = first; i < end; ++i) {
                 const table::Pair pair = pair_of(i);
-                const WorldInstance& a = world.instances[pair.a];
-                const WorldInstance& b = world.instances[pair.b];
-                query.a = {a.shape, a.pose};
-                query.b = {b.shape, b.pose};
-                if constexpr (has_motions) {
-                    query.end_a = motions_.end(pair.a);
-                    query.end_b = motions_.end(pair.b);
-                }
+                set_pair(world.instances, pair, query);
                 batch_.add(query);
                 pairs_of_batch_.push_back(pair);
             }
@@ -673,16 +756,12 @@ private:
     void add_row(InstanceHandle a, InstanceHandle b, const typename Query::Result& result) {
         Row& row = answered_.rows.emplace_back(row_of<Query>(a, b, result));
         row.index = static_cast<std::uint32_t>(answered_.rows.size() - 1);
-        const auto add_points = [&](const std::vector<Point>& records) {
-            row.point_count = static_cast<std::uint32_t>(records.size());
-            answered_.records.push_back(points_of_rows_.add(records));
-        };
-        if constexpr (requires { result.samples; }) {
-            add_points(result.samples);
-        } else if constexpr (requires { result.points; }) {
-            add_points(result.points);
+        if constexpr (has_points) {
+            const auto& points = table::points_of(result);
+            row.point_count = static_cast<std::uint32_t>(points.size());
+            answered_.records.push_back(points_of_rows_.add(points));
         }
-        if constexpr (requires { result.manifold; }) {
+        if constexpr (has_manifold) {
             answered_.manifolds.push_back(manifolds_of_rows_.add(result.manifold));
         }
     }
@@ -728,6 +807,10 @@ private:
     }
 
     static constexpr bool has_motions = std::is_same_v<Query, TimeOfImpactQuery>;
+    static constexpr bool has_manifold = std::is_same_v<Query, ContactQuery>;
+    static constexpr bool has_points = requires(const typename Query::Result& result) {
+        table::points_of(result);
+    };
 
     std::weak_ptr<const void> world_;  // identity of the one of the last update
     world::Motions motions_;           // for times of impact
@@ -741,6 +824,10 @@ private:
     table::RowLists<ContactCluster> manifolds_of_rows_;
     std::optional<Jobs> jobs_;
     std::vector<table::Job> scratch_;  // by job
+    // Likewise, where solvers answer.
+    std::vector<solvers::SolverJobs::Question> questions_;
+    std::vector<table::JobLists<Query>> lists_;
+    std::vector<std::uint32_t> job_of_;  // by pair that was answered
     Batch batch_;
     Results results_;
     std::vector<table::Pair> pairs_of_batch_;

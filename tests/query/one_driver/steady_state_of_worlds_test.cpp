@@ -3,11 +3,14 @@
 #include <tests/support/host_gpu.hpp>
 #include <tests/support/pair_tables.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -119,6 +122,72 @@ TEST_F(SteadyStateOfWorlds, QuestionsForTheDeviceAllocateAndCreateNothing) {
     });
     EXPECT_GT(nearest.left_to_cpu(), 10U);
     EXPECT_NE(hits[10].instance, InstanceHandle{});
+}
+
+/// The tables that the CPU answers, of one kind of query each.
+template <class Query>
+class SteadyStateOfTables : public SteadyStateOfWorlds {};
+using QueriesOfTables = testing::Types<PenetrationQuery, ContactQuery, IntersectionQuery,
+                                       ClosestPointQuery, SeparationQuery, IntersectionTestQuery,
+                                       SeparationVectorQuery, ContainmentQuery, TimeOfImpactQuery>;
+TYPED_TEST_SUITE(SteadyStateOfTables, QueriesOfTables);
+
+TYPED_TEST(SteadyStateOfTables, OfTheCpuAllocateNothing) {
+    this->add_instances(2);
+    TypeParam query{};
+    if constexpr (requires { query.tolerance; }) {
+        query.tolerance = 0.08;
+    }
+    if constexpr (std::is_same_v<TypeParam, ContactQuery>) {
+        query.contact_distance = 0.1;
+    }
+    for (const bool hits_only : {false, true}) {
+        PairTable<TypeParam> table(
+            query, {.reach = 0.1, .hits_only = hits_only, .technique = Technique::cpu});
+        PairTable<TypeParam> listed(query, {.hits_only = hits_only,
+                                            .listed = !std::is_same_v<TypeParam, TimeOfImpactQuery>,
+                                            .technique = Technique::cpu});
+        const std::span<const InstanceHandle> all = this->instances_;
+        const PairTableInput pairs{.a = all.first(19), .b = all.subspan(1)};
+        std::size_t read = 0;
+        this->expect_nothing_made(100, [&](int number) {
+            bool ok = this->move_instances(number) && this->world().update(table).ok();
+            ok = ok && (!listed.options().listed || this->world().update(listed, pairs).ok());
+            for (const auto& row : table.rows()) {
+                read += 1 + table.points(row).size();
+            }
+            return ok;
+        });
+        EXPECT_GT(table.candidates(), 10U);
+        constexpr bool may_be_none = std::is_same_v<TypeParam, ContainmentQuery>;
+        EXPECT_GE(read, may_be_none ? 0U : 100U);
+    }
+}
+
+/// The number of pairs changes from frame to frame.
+TEST_F(SteadyStateOfWorlds, BatchesOfAllPairsFoundAllocateNothing) {
+    const std::vector<ShapeHandle> shapes = shapes_of_frame();
+    std::vector<Instance> instances(20);
+    Batch batch;
+    Results results;
+    std::size_t fewest = SIZE_MAX;
+    std::size_t most = 0;
+    expect_nothing_made(200, [&](int number) {
+        for (std::size_t i = 0; i < instances.size(); ++i) {
+            const double step = 0.5 + 0.1 * (number % 8);
+            instances[i] = {shapes[i % 2],
+                            {{step * static_cast<double>(i), 0.0}, 0.7 * (number % 8)}};
+        }
+        const auto pairs = watched().find_overlapping_boxes(instances, 0.0);
+        batch.clear();
+        for (const InstancePair& pair : *pairs) {
+            batch.add(ContactQuery{instances[pair.first], instances[pair.second], 0.08, 0.1});
+        }
+        fewest = std::min(fewest, pairs->size());
+        most = std::max(most, pairs->size());
+        return watched().run(batch, results).ok() && results.results.size() == pairs->size();
+    });
+    EXPECT_LT(fewest + 10, most);
 }
 
 /// Places of the instances in a buffer of the host.
