@@ -19,7 +19,6 @@ std::vector<std::string> null_handles(const HostDevice& host) {
     require(host.instance != VK_NULL_HANDLE, "instance");
     require(host.physical_device != VK_NULL_HANDLE, "physical_device");
     require(host.device != VK_NULL_HANDLE, "device");
-    require(host.queue != VK_NULL_HANDLE || host.queue_access.submit != nullptr, "queue");
     require(host.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
     if (const VkAllocationCallbacks* const allocator = host.allocator) {
         require(allocator->pfnAllocation != nullptr, "allocator->pfnAllocation");
@@ -201,6 +200,11 @@ VkResult Device::submit(const VkSubmitInfo& info, VkFence fence) const {
     const QueueAccess& access = host_.queue_access;
     if (access.submit != nullptr) {
         return access.submit(access.user, 1, &info, fence);
+    }
+    if (host_.queue == VK_NULL_HANDLE) {
+        throw StatusException({StatusCode::invalid_submission,
+                               "HostDevice::queue is null: the library has no queue to submit to; "
+                               "record what the device is to do, or use Technique::cpu"});
     }
     if (access.lock != nullptr) {
         access.lock(access.user);

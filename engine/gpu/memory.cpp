@@ -67,8 +67,9 @@ std::string contradiction(const MemoryAllocation& given, const MemoryRequest& re
     if (given.memory == VK_NULL_HANDLE) {
         return "memory is null";
     }
-    if (given.memory_type >= VK_MAX_MEMORY_TYPES ||
-        ((needs.memoryTypeBits >> given.memory_type) & 1U) == 0) {
+    if (given.memory_type != unknown_memory_type &&
+        (given.memory_type >= VK_MAX_MEMORY_TYPES ||
+         ((needs.memoryTypeBits >> given.memory_type) & 1U) == 0)) {
         return "memory_type is " + std::to_string(given.memory_type) +
                ", which is not among the allowed types " + std::to_string(needs.memoryTypeBits) +
                " (bit mask)";
@@ -235,7 +236,9 @@ MemoryBlock& MemoryBlocks::ask_host(const VkMemoryRequirements& needs, const Mem
     block->count(needs.size);
     block->type = given.memory_type;
     block->kind = kind;
-    block->flags = device_->memory_flags(given.memory_type);
+    block->flags = given.memory_type == unknown_memory_type
+                       ? wish.required
+                       : device_->memory_flags(given.memory_type);
     if (kind == MemoryKind::mapped_buffer) {
         block->data = static_cast<std::byte*>(given.mapped);
     }

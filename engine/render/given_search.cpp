@@ -43,7 +43,7 @@ GivenSearch::GivenSearch(const gpu::Device& device, const graph::ComputeLayout& 
       shapes_(device),
       pairs_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
              "nearfield given pairs"),
-      memory_(device, layout, search, device_input::given_pairs, false) {}
+      memory_(device, layout, search, device_input::given_pairs, {}, false) {}
 
 void GivenSearch::upload(const device_input::SearchShapes& shapes,
                          const device_input::GivenPairs& pairs, const PairCounts& expected) {

@@ -16,14 +16,15 @@ constexpr std::uint32_t not_counted = UINT32_MAX;
 
 PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
                                      const passes::PairSearch& passes,
-                                     const device_input::PairQuestion& question, bool timestamps)
+                                     const device_input::PairQuestion& question,
+                                     const PairTableCounts& reserve, bool timestamps)
     : device_(&device),
       submission_(device),
       timestamps_(device, 0, timestamps),
       poses_(device, layout),
       outputs_(device, layout),
       world_(device),
-      memory_(device, layout, passes, question.kind(), question.on_device) {}
+      memory_(device, layout, passes, question.kind(), reserve, question.on_device) {}
 
 PairSearchBuffers::~PairSearchBuffers() {
     if (is_submitted_) {
@@ -132,20 +133,22 @@ void PairSearchBuffers::read_results() {
 }
 
 /// Makes room for what the device has counted.
-void PairSearchBuffers::grow() {
-    memory_.grow();
+void PairSearchBuffers::grow(double headroom) {
+    memory_.grow(headroom);
     is_laid_out_ = false;
 }
 
-void PairSearchBuffers::upload(const device_input::SearchShapes& shapes,
-                               std::uint64_t memory_limit) {
+void PairSearchBuffers::upload(const device_input::SearchShapes& shapes, std::uint64_t memory_limit,
+                               double headroom) {
     memory_limit_ = memory_limit;
     const bool had_results = std::exchange(has_results_, false);
-    if (std::exchange(is_for_host_, false)) {
+    const bool was_for_host = std::exchange(is_for_host_, false);
+    if (was_for_host) {
         memory_.read_counts();
-        if (were_executed() && !memory_.had_room()) {
-            grow();
-        }
+    }
+    const bool is_known = was_for_host ? were_executed() : had_results;
+    if (is_known && !memory_.had_room(headroom)) {
+        grow(headroom);
     }
     if (had_results && memory_.capacities().join(limits())) {
         is_laid_out_ = false;
@@ -159,7 +162,7 @@ void PairSearchBuffers::upload(const device_input::SearchShapes& shapes,
 
 void PairSearchBuffers::begin(const device_input::SearchShapes& shapes, std::uint64_t memory_limit,
                               Timings& timings) {
-    upload(shapes, memory_limit);
+    upload(shapes, memory_limit, 1.0);
     submit(poses_.is_set(), timings);
 }
 
@@ -174,7 +177,7 @@ void PairSearchBuffers::finish(Timings& timings) {
         if (memory_.had_room()) {
             break;
         }
-        grow();
+        grow(1.0);
         // The places that the poses gave are still there; the host may have overwritten the poses.
         submit(false, timings);
     }
@@ -182,8 +185,8 @@ void PairSearchBuffers::finish(Timings& timings) {
 }
 
 void PairSearchBuffers::record(VkCommandBuffer commands, const device_input::SearchShapes& shapes,
-                               std::uint64_t memory_limit, Timings& timings) {
-    upload(shapes, memory_limit);
+                               std::uint64_t memory_limit, double headroom, Timings& timings) {
+    upload(shapes, memory_limit, headroom);
     const Stopwatch start;
     prepare(poses_.is_set(), not_counted);
     device_->begin_label(commands, "nearfield");
@@ -191,6 +194,11 @@ void PairSearchBuffers::record(VkCommandBuffer commands, const device_input::Sea
     device_->end_label(commands);
     is_for_host_ = true;
     timings.record += start.milliseconds();
+}
+
+PairTableCounts PairSearchBuffers::found() const {
+    const PairTableCounts found = memory_.found();
+    return is_submitted_ || found.pairs == not_counted ? PairTableCounts{} : found;
 }
 
 void PairSearchBuffers::collect(Timings& timings) {

@@ -24,10 +24,10 @@ namespace nearfield::render {
 /// recorded for a host.
 class PairSearchBuffers {
 public:
-    /// The passes must stay.
+    /// The passes must stay. `reserve`: what there is room for at first, at least.
     PairSearchBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
                       const passes::PairSearch& passes, const device_input::PairQuestion& question,
-                      bool timestamps);
+                      const PairTableCounts& reserve, bool timestamps);
     /// Waits for the device if it is still working.
     ~PairSearchBuffers();
     PairSearchBuffers(const PairSearchBuffers&) = delete;
@@ -54,13 +54,18 @@ public:
     void finish(Timings& timings);
 
     /// In place of begin(): records the same into a command buffer of the host, which may submit it
-    /// again and again. Throws as begin(); then nothing is recorded.
+    /// again and again. `headroom`: so many times what the last search has found has room. Throws
+    /// as begin(); then nothing is recorded.
     void record(VkCommandBuffer commands, const device_input::SearchShapes& shapes,
-                std::uint64_t memory_limit, Timings& timings);
+                std::uint64_t memory_limit, double headroom, Timings& timings);
     /// In place of finish(), once the device is done, and as often as it is: reads what the last
     /// execution left. Throws StatusException: (not_executed) if there was none, (overflow) if it
     /// had no room, which the next begin() or record() makes. Adds the times of the passes.
     void collect(Timings& timings);
+    /// What the last search that has ended found, at any time; nothing while another one that was
+    /// begun has not finished, or if recorded commands were not executed yet.
+    [[nodiscard]] PairTableCounts found() const;
+    [[nodiscard]] PairTableCounts room() const { return memory_.room(); }
     /// Of the last search nothing is of use.
     void forget_counts() { has_results_ = false; }
 
@@ -87,7 +92,8 @@ private:
     [[nodiscard]] PairLimits limits() const;
     [[nodiscard]] SearchInput input() const;
     void lay_out();
-    void upload(const device_input::SearchShapes& shapes, std::uint64_t memory_limit);
+    void upload(const device_input::SearchShapes& shapes, std::uint64_t memory_limit,
+                double headroom);
     // `takes_poses`: of the host; otherwise the instances are placed already.
     // `pairs`: see SearchMemory::clear_counts.
     void prepare(bool takes_poses, std::uint32_t pairs);
@@ -96,7 +102,7 @@ private:
     void submit(bool takes_poses, Timings& timings);
     [[nodiscard]] bool were_executed() const;
     void read_results();
-    void grow();
+    void grow(double headroom);
 
     const gpu::Device* device_;
     gpu::Submission submission_;

@@ -37,9 +37,9 @@ std::unique_ptr<BatchResources> Renderer::make_resources() {
 }
 
 std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(
-    const device_input::PairQuestion& question) {
+    const device_input::PairQuestion& question, const PairTableCounts& reserve) {
     return std::make_unique<PairSearchBuffers>(
-        *device_, layout_, passes_.pair_search(question.kind()), question, timestamps_);
+        *device_, layout_, passes_.pair_search(question.kind()), question, reserve, timestamps_);
 }
 
 std::unique_ptr<WorldQueryBuffers> Renderer::make_world_query_buffers(

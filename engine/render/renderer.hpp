@@ -50,7 +50,7 @@ public:
     [[nodiscard]] std::unique_ptr<BatchResources> make_resources();
     /// Memory for searches for all pairs, likewise.
     [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(
-        const device_input::PairQuestion& question);
+        const device_input::PairQuestion& question, const PairTableCounts& reserve);
     /// The passes before such searches that take poses of the host, and those after them whose
     /// results stay on the device.
     [[nodiscard]] const passes::PairPoses& pair_poses() const { return passes_.pair_poses(); }

@@ -12,9 +12,19 @@ constexpr std::uint64_t bytes_of_counts = shaders::words_of_counts * sizeof(std:
 constexpr std::uint64_t bytes_of_arguments =
     std::uint64_t{shaders::stages_of_pairs} * shaders::words_of_arguments * sizeof(std::uint32_t);
 
-bool have_room(const PairCounts& counts, const PairCounts& capacities) {
-    return std::equal(counts.begin(), counts.end(), capacities.begin(),
-                      [](std::uint32_t count, std::uint32_t room) { return count <= room; });
+bool have_room(const PairCounts& counts, const PairCounts& capacities, double headroom = 1.0) {
+    return std::equal(
+        counts.begin(), counts.end(), capacities.begin(),
+        [headroom](std::uint32_t count, std::uint32_t room) { return headroom * count <= room; });
+}
+
+PairTableCounts told(const PairCounts& counts) {
+    return {.pairs = counts[shaders::pair_total],
+            .points = counts[shaders::record_total],
+            .rows = counts[shaders::row_total],
+            .edge_groups = counts[shaders::item_total],
+            .edges = counts[shaders::edge_total],
+            .tested_points = counts[shaders::point_total]};
 }
 
 }  // namespace
@@ -148,7 +158,8 @@ void PairPartMemory::read_results(std::uint32_t first_row, std::vector<std::uint
 
 SearchMemory::SearchMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
                            const passes::PairSearch& search,
-                           const device_input::PairSearchKind& kind, bool is_resident)
+                           const device_input::PairSearchKind& kind, const PairTableCounts& reserve,
+                           bool is_resident)
     : device_(&device),
       layout_(&layout),
       search_(&search),
@@ -158,7 +169,7 @@ SearchMemory::SearchMemory(const gpu::Device& device, const graph::ComputeLayout
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::none, "nearfield pair arguments"),
       updates_(device),
-      parts_(kind, is_resident) {
+      parts_(kind, first_capacities(kind, reserve), is_resident) {
     arguments_.reserve(bytes_of_arguments);
     if (const auto* const boxes = search.boxes()) {
         boxes_.emplace(boxes->graph.make_resources(layout));
@@ -226,9 +237,9 @@ void SearchMemory::read_counts() {
     }
 }
 
-bool SearchMemory::had_room() const {
+bool SearchMemory::had_room(double headroom) const {
     for (std::size_t i = 0; i < counts_.size(); ++i) {
-        if (!have_room(counts_[i], parts_[i].capacities)) {
+        if (!have_room(counts_[i], parts_[i].capacities, headroom)) {
             return false;
         }
     }
@@ -254,15 +265,35 @@ void SearchMemory::read_results() {
     }
 }
 
-void SearchMemory::grow() {
+void SearchMemory::grow(double headroom) {
     for (std::size_t i = 0; i < counts_.size(); ++i) {
         require_searchable(counts_[i]);
-        if (have_room(counts_[i], parts_[i].capacities)) {
+        if (have_room(counts_[i], parts_[i].capacities, headroom)) {
             parts_.note(i, counts_[i]);
         } else {
-            parts_.grow(i, counts_[i]);
+            parts_.grow(i, counts_[i], headroom);
         }
     }
+}
+
+PairTableCounts SearchMemory::found() const {
+    PairCounts all{};
+    for (const auto& part : memories_) {
+        const PairCounts own = part->read_counts();
+        all = own[shaders::pair_total] == UINT32_MAX ? own : sum(all, own);
+        if (own[shaders::pair_total] == UINT32_MAX) {
+            break;
+        }
+    }
+    return told(all);
+}
+
+PairTableCounts SearchMemory::room() const {
+    PairCounts all{};
+    for (const auto& part : memories_) {
+        all = sum(all, part->input().capacities);
+    }
+    return told(all);
 }
 
 std::uint32_t SearchMemory::candidates() const {

@@ -136,7 +136,7 @@ public:
     /// The passes must stay.
     SearchMemory(const gpu::Device& device, const graph::ComputeLayout& layout,
                  const passes::PairSearch& search, const device_input::PairSearchKind& kind,
-                 bool is_resident);
+                 const PairTableCounts& reserve, bool is_resident);
 
     /// The capacities; once they have changed, lay_out() has to follow.
     [[nodiscard]] PairParts& capacities() { return parts_; }
@@ -161,14 +161,18 @@ public:
     void read_counts();
     /// By part, as they were read last.
     [[nodiscard]] std::span<const PairCounts> counts() const { return counts_; }
-    [[nodiscard]] bool had_room() const;
+    /// Whether there was room for `headroom` times as much.
+    [[nodiscard]] bool had_room(double headroom = 1.0) const;
+    /// What the device has counted last of all parts, and what there is room for: at any time.
+    [[nodiscard]] PairTableCounts found() const;
+    [[nodiscard]] PairTableCounts room() const;
     /// Throws StatusException (overflow) without.
     void require_room() const;
     /// Reads what there was room for.
     void read_results();
-    /// Makes room for what was counted; lay_out() has to follow. Throws StatusException (too_large)
-    /// if one instance has too many pairs.
-    void grow();
+    /// Makes room for what was counted, see grown(); lay_out() has to follow. Throws
+    /// StatusException (too_large) if one instance has too many pairs.
+    void grow(double headroom = 1.0);
 
     /// Of the last search: the pairs that it was about, and those that have rows.
     [[nodiscard]] std::uint32_t candidates() const;

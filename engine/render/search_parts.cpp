@@ -26,14 +26,6 @@ constexpr std::uint32_t least_capacity = 64;
                                                       std::to_string(most)});
 }
 
-PairCounts sum(const PairCounts& a, const PairCounts& b) {
-    PairCounts both{};
-    for (std::size_t i = 0; i < both.size(); ++i) {
-        both[i] = a[i] + b[i];
-    }
-    return both;
-}
-
 std::uint32_t size_of(const PairPart& part) {
     return part.end - part.first;
 }
@@ -63,9 +55,31 @@ PairCounts share(PairCounts counts, std::uint32_t few, std::uint32_t all) {
 
 }  // namespace
 
-PairCounts first_capacities(const device_input::PairSearchKind& kind) {
+PairCounts sum(const PairCounts& a, const PairCounts& b) {
+    PairCounts both{};
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        both[i] = a[i] + b[i];
+    }
+    return both;
+}
+
+PairCounts first_capacities(const device_input::PairSearchKind& kind,
+                            const PairTableCounts& reserve) {
     PairCounts counts =
         kind.goal == device_input::PairGoal::tests ? first_of_tests : first_of_points;
+    const auto keep = [&](std::uint32_t stage, std::uint32_t wanted, std::uint64_t otherwise) {
+        const std::uint64_t room = wanted > 0 ? wanted : otherwise;
+        if (counts[stage] > 0) {
+            counts[stage] = static_cast<std::uint32_t>(
+                std::clamp<std::uint64_t>(room, counts[stage], max_counted));
+        }
+    };
+    keep(shaders::pair_total, reserve.pairs, 0);
+    keep(shaders::record_total, reserve.points, 0);
+    keep(shaders::row_total, reserve.rows, 0);
+    keep(shaders::item_total, reserve.edge_groups, 4 * std::uint64_t{reserve.pairs});
+    keep(shaders::edge_total, reserve.edges, 8 * std::uint64_t{reserve.pairs});
+    keep(shaders::point_total, reserve.tested_points, 4 * std::uint64_t{reserve.points});
     if (kind.points == device_input::FoundPoints::compared) {
         counts[shaders::record_total] = 0;
     }
@@ -87,16 +101,19 @@ void require_searchable(const PairCounts& counts) {
     }
 }
 
-PairCounts grown(const PairCounts& counts, const PairCounts& capacities) {
+PairCounts grown(const PairCounts& counts, const PairCounts& capacities, double headroom) {
     PairCounts larger = capacities;
     double growth = 1.0;
     for (const auto stage : {shaders::pair_total, shaders::item_total, shaders::edge_total,
                              shaders::point_total, shaders::record_total, shaders::row_total}) {
-        const double expected = growth * counts[stage];
-        const double most = stage == shaders::row_total ? counts[shaders::pair_total] : max_counted;
+        const double expected = headroom * growth * counts[stage];
+        const double most = headroom == 1.0 && stage == shaders::row_total
+                                ? counts[shaders::pair_total]
+                                : max_counted;
         if (expected > capacities[stage]) {
-            larger[stage] = std::max(capacities[stage],
-                                     static_cast<std::uint32_t>(std::min(1.25 * expected, most)));
+            const double least = headroom == 1.0 ? capacities[stage] : 2.0 * capacities[stage];
+            const double room = std::min(std::max(least, 1.25 * expected), most);
+            larger[stage] = std::max(capacities[stage], static_cast<std::uint32_t>(room));
         }
         if (stage != shaders::pair_total) {
             growth *= std::max(1.0, 1.0 * counts[stage] / std::max(capacities[stage], 1U));
@@ -153,11 +170,9 @@ PairBytes place_pair_arrays(const device_input::PairSearchKind& kind, std::uint3
     return {layout.bytes(), bytes_of_pair_records(kind, capacities), bytes_of_pair_rows(rows)};
 }
 
-PairParts::PairParts(const device_input::PairSearchKind& kind, bool is_resident)
-    : kind_(kind),
-      is_resident_(is_resident),
-      first_capacities_(first_capacities(kind_)),
-      parts_(1) {
+PairParts::PairParts(const device_input::PairSearchKind& kind, const PairCounts& first,
+                     bool is_resident)
+    : kind_(kind), is_resident_(is_resident), first_capacities_(first), parts_(1) {
     PairPart& all = parts_.front();
     all.capacities = first_capacities_;
     for (std::size_t i = 0; i < all.needed.size(); ++i) {
@@ -208,13 +223,13 @@ bool PairParts::set_given(const PairCounts& counts, const PairCounts& room) {
     return are_others;
 }
 
-void PairParts::grow(std::size_t i, const PairCounts& counts) {
+void PairParts::grow(std::size_t i, const PairCounts& counts, double headroom) {
     PairPart& part = parts_[i];
     for (std::size_t stage = 0; stage < counts.size(); ++stage) {
         part.needed[stage] = std::max(part.needed[stage], counts[stage]);
     }
     part.counted = counts;
-    part.capacities = grown(counts, part.capacities);
+    part.capacities = grown(counts, part.capacities, headroom);
 }
 
 PairBytes PairParts::bytes_of(const PairCounts& capacities) const {

@@ -2,6 +2,7 @@
 
 #include <engine/device_input/pair_question.hpp>
 #include <nearfield/status.hpp>
+#include <nearfield/world_pairs.hpp>
 
 #include <shaders/pairs.h>
 #include <shaders/push.h>
@@ -20,16 +21,22 @@ namespace nearfield::render {
 /// (shaders/search.h): edges, points, points found, pairs, their items, and rows.
 using PairCounts = std::array<std::uint32_t, shaders::stages_of_pairs>;
 
-/// Room for what a first search may find. Tests look at no points.
-[[nodiscard]] PairCounts first_capacities(const device_input::PairSearchKind& kind);
+[[nodiscard]] PairCounts sum(const PairCounts& a, const PairCounts& b);
+
+/// Room for what a first search may find, and for at least the pairs, points and rows of `reserve`.
+/// Tests look at no points.
+[[nodiscard]] PairCounts first_capacities(const device_input::PairSearchKind& kind,
+                                          const PairTableCounts& reserve);
 /// Whether a search of one part can count so many.
 [[nodiscard]] bool is_countable(const PairCounts& counts);
 /// Throws StatusException (too_large) if one instance has more pairs than can be searched.
 void require_searchable(const PairCounts& counts);
 /// Capacities for what a search has counted without room for all of it. Stages after one without
 /// room have counted only a part, so they get room for as many times more; those after pairs
-/// without room have counted nothing but items, and get room another time.
-[[nodiscard]] PairCounts grown(const PairCounts& counts, const PairCounts& capacities);
+/// without room have counted nothing but items, and get room another time. `headroom`: more than 1
+/// if there has to be room for so many times as much; what grows is then at least doubled.
+[[nodiscard]] PairCounts grown(const PairCounts& counts, const PairCounts& capacities,
+                               double headroom);
 /// The error of a search without room for what it counted; the reasons name each stage.
 [[nodiscard]] Status overflow(const PairCounts& counts, const PairCounts& capacities);
 
@@ -74,7 +81,8 @@ struct PairLimits {
 /// Together they have all instances, or all given pairs.
 class PairParts {
 public:
-    PairParts(const device_input::PairSearchKind& kind, bool is_resident);
+    /// `first`: see first_capacities().
+    PairParts(const device_input::PairSearchKind& kind, const PairCounts& first, bool is_resident);
 
     [[nodiscard]] std::size_t count() const { return parts_.size(); }
     [[nodiscard]] const PairPart& operator[](std::size_t i) const { return parts_[i]; }
@@ -90,8 +98,8 @@ public:
         parts_[i].needed = parts_[i].counted = counts;
     }
     /// Makes room for what a search has counted in a part without room for it, and for a little
-    /// more. Call fit() then.
-    void grow(std::size_t i, const PairCounts& counts);
+    /// more; see grown(). Call fit() then.
+    void grow(std::size_t i, const PairCounts& counts, double headroom);
     /// Joins the two neighbours that need least, if twice as much would fit. Returns whether it
     /// did; call fit() then. Precondition: all parts were noted.
     bool join(const PairLimits& limits);

@@ -20,8 +20,12 @@
 
 namespace nearfield {
 
-DevicePairs::DevicePairs(const AnyQuery& query, double reach, Timings& timings)
-    : query_(query), timings_(timings), question_(device_input::pair_question(query, reach)) {}
+DevicePairs::DevicePairs(const AnyQuery& query, const PairTableOptions& options, Timings& timings)
+    : query_(query),
+      options_(options),
+      timings_(timings),
+      question_(device_input::pair_question(query, options.reach)),
+      reserve_(options.reserve) {}
 
 DevicePairs::~DevicePairs() {
     if (context_ != nullptr) {
@@ -174,7 +178,7 @@ void DevicePairs::start(const char* call, const WorldView& world, const DevicePo
     render::Renderer& renderer = *context_->renderer();
     const double made = renderer.pipeline_milliseconds();
     if (buffers_ == nullptr || renderer_ != renderer.number()) {
-        buffers_ = renderer.make_pair_buffers(question_);
+        buffers_ = renderer.make_pair_buffers(question_, reserve_);
         renderer_ = renderer.number();
         instances_.forget_places();
     }
@@ -198,7 +202,7 @@ void DevicePairs::start(const char* call, const WorldView& world, const DevicePo
             buffers_->begin(instances_.shapes(), context_->memory_limit(), timings_);
         } else {
             buffers_->record(recording->commands, instances_.shapes(), context_->memory_limit(),
-                             timings_);
+                             options_.headroom, timings_);
         }
     }
     set_submitted(true);
@@ -350,6 +354,30 @@ bool DevicePairs::is_ready() const {
         return context_->is_complete(*frame_);
     }
     return is_submitted_ && (buffers_ == nullptr || buffers_->is_done());
+}
+
+/// What is made anew has room for twice what was found last.
+void DevicePairs::trim() noexcept {
+    if (buffers_ == nullptr || (frame_ ? !context_->is_complete(*frame_) : is_submitted_)) {
+        return;
+    }
+    const PairTableCounts found = buffers_->found();
+    const auto twice = [](std::uint32_t reserved, std::uint32_t count) {
+        return std::max(reserved, count < UINT32_MAX / 2 ? 2 * count : 0);
+    };
+    for (std::uint32_t PairTableCounts::*const number :
+         {&PairTableCounts::pairs, &PairTableCounts::points, &PairTableCounts::rows,
+          &PairTableCounts::edge_groups, &PairTableCounts::edges,
+          &PairTableCounts::tested_points}) {
+        reserve_.*number = twice(options_.reserve.*number, found.*number);
+    }
+    buffers_.reset();
+    instances_.forget_places();
+    set_submitted(false);
+    frame_.reset();
+    rows_ = 0;
+    decided_.clear();
+    dropped_rows_.clear();
 }
 
 void DevicePairs::collect_recorded() {

@@ -25,9 +25,8 @@ namespace nearfield {
 /// throw; after start() or finish() has, start_anew() has to be called.
 class DevicePairs {
 public:
-    /// Precondition: device_input::is_for_all_pairs(query), which has to stay. `reach`: of
-    /// separations and closest points.
-    DevicePairs(const AnyQuery& query, double reach, Timings& timings);
+    /// Precondition: device_input::is_for_all_pairs(query), which has to stay, as the options.
+    DevicePairs(const AnyQuery& query, const PairTableOptions& options, Timings& timings);
     ~DevicePairs();
     DevicePairs(const DevicePairs&) = delete;
     DevicePairs& operator=(const DevicePairs&) = delete;
@@ -51,6 +50,13 @@ public:
     /// Whether what was recorded is about the world as it is, and has room.
     [[nodiscard]] bool is_recorded(const WorldView& world) const;
     [[nodiscard]] bool is_ready() const;
+    [[nodiscard]] PairTableCounts found() const {
+        return buffers_ == nullptr ? PairTableCounts{} : buffers_->found();
+    }
+    [[nodiscard]] PairTableCounts capacity() const {
+        return buffers_ == nullptr ? PairTableCounts{} : buffers_->room();
+    }
+    void trim() noexcept;
     /// Precondition: the query is resident.
     [[nodiscard]] PairsOnDevice on_device() const;
     [[nodiscard]] std::uint32_t size() const { return rows_; }
@@ -141,6 +147,7 @@ private:
     }
 
     const AnyQuery& query_;
+    const PairTableOptions& options_;
     Timings& timings_;
     const device_input::PairQuestion question_;  // that it asks of the device
     std::optional<DevicePoses> poses_;           // of the host

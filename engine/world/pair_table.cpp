@@ -29,6 +29,7 @@ namespace table {
 /// The number of pairs that a job takes at a time.
 constexpr std::size_t pairs_of_part = 128;
 constexpr std::size_t queries_of_batch = 4096;
+constexpr double largest_headroom = 1024.0;
 
 template <class Query>
 constexpr bool has_distance = requires(const typename Query::Result& result) {
@@ -305,6 +306,11 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
         refuse(call, "the reach is " + geometry::number(options.reach) +
                          "; it must be a finite number of at least 0");
     }
+    if (!(options.headroom >= 1.0 && options.headroom <= table::largest_headroom)) {
+        refuse(call, "the headroom is " + geometry::number(options.headroom) +
+                         "; it must be at least 1 and at most " +
+                         geometry::number(table::largest_headroom));
+    }
     if (input.a.size() != input.b.size()) {
         refuse(call, std::to_string(input.a.size()) + " and " + std::to_string(input.b.size()) +
                          " instances form no pairs");
@@ -329,7 +335,7 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
         table::require_for_device(call, query, options);
         if (device == nullptr) {
             start_anew();
-            device = std::make_unique<DevicePairs>(query, options.reach, timings);
+            device = std::make_unique<DevicePairs>(query, options, timings);
         }
     } else {
         if (needs_device) {
@@ -427,6 +433,20 @@ Status PairTableBase::collect(const Limits& limits) {
 
 bool PairTableBase::is_ready() const noexcept {
     return state_->device != nullptr ? state_->device->is_ready() : state_->is_submitted;
+}
+
+PairTableCounts PairTableBase::found() const noexcept {
+    return state_->device != nullptr ? state_->device->found() : PairTableCounts{};
+}
+
+PairTableCounts PairTableBase::capacity() const noexcept {
+    return state_->device != nullptr ? state_->device->capacity() : PairTableCounts{};
+}
+
+void PairTableBase::trim() noexcept {
+    if (state_->device != nullptr) {
+        state_->device->trim();
+    }
 }
 
 Expected<PairsOnDevice> PairTableBase::on_device() const {

@@ -46,11 +46,16 @@ struct MemoryRequest {
     const char* name = "";  ///< what it is for; valid during the call
 };
 
+/// In place of a memory type that a host's allocator does not tell.
+inline constexpr std::uint32_t unknown_memory_type = UINT32_MAX;
+
 /// Device memory that a host gave: bytes `offset` to `offset` + requirements.size of `memory`.
 struct MemoryAllocation {
     VkDeviceMemory memory = VK_NULL_HANDLE;  ///< of HostDevice::device; may hold other data too
     VkDeviceSize offset = 0;                 ///< a multiple of requirements.alignment
-    std::uint32_t memory_type = 0;           ///< that `memory` was allocated from
+    /// That `memory` was allocated from. Unknown: it is taken to be one of the allowed types, and
+    /// mapped memory to be non-coherent.
+    std::uint32_t memory_type = unknown_memory_type;
     /// Where the host sees the byte at `offset`, if the memory has to be mapped; it stays mapped
     /// until it is freed. Otherwise ignored.
     void* mapped = nullptr;
@@ -90,8 +95,9 @@ struct HostDevice {
     VkInstance instance = VK_NULL_HANDLE;  ///< created for Vulkan 1.1 or later
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;  ///< the one that `device` was created from
     VkDevice device = VK_NULL_HANDLE;                   ///< owner of all objects of the library
-    /// All work is submitted to it. Needed also by a host that only records. May be null if
-    /// queue_access.submit is set.
+    /// All work of the library is submitted to it. Null: only queue_access.submit can submit, if it
+    /// is set; otherwise the host records all work of the device, and calls that would have to
+    /// submit fail with invalid_submission.
     VkQueue queue = VK_NULL_HANDLE;
     /// Every entry point is loaded through this function.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;

@@ -20,6 +20,19 @@ namespace nearfield {
 
 struct PairsOnDevice;
 
+/// Numbers of a search of the device for the pairs of a table.
+struct PairTableCounts {
+    /// Pairs whose boxes overlap; both orders of a pair count where both may have a row.
+    std::uint32_t pairs = 0;
+    std::uint32_t points = 0;         ///< near or inside the other shape of a pair
+    std::uint32_t rows = 0;           ///< pairs that are hit, or may be
+    std::uint32_t edge_groups = 0;    ///< of up to eight edges, near the other shape's box
+    std::uint32_t edges = 0;          ///< of these groups, near the other shape's box
+    std::uint32_t tested_points = 0;  ///< of these edges; `points` of them are near or inside
+
+    friend bool operator==(const PairTableCounts&, const PairTableCounts&) = default;
+};
+
 /// The pairs of a PairTable, those of them that have a row, and the technique.
 struct PairTableOptions {
     /// Pairs of instances whose boxes are at most this many world units apart along both axes are
@@ -44,6 +57,14 @@ struct PairTableOptions {
     /// stay on the device, if the poses are the host's (DevicePoses), or if commands are recorded.
     /// Otherwise compute on a hardware device for what it answers, else cpu; for a list always cpu.
     Technique technique = Technique::automatic;
+    /// Technique::compute: numbers that the device has room for before it has found any, for
+    /// example what PairTable::found() said of another table. The last three, if they are 0, follow
+    /// from pairs and points: 4 groups and 8 edges for each pair, 4 tested points for each point.
+    PairTableCounts reserve = {};
+    /// Technique::compute, for World::record(), whose commands cannot search again: room for at
+    /// least so many times what the search before has found, 1 or more. Where there is less, the
+    /// next World::record() makes at least twice the room, without a wait.
+    double headroom = 1.5;
 };
 
 /// One row of a PairTable: the answer to its query for one pair.
@@ -74,6 +95,15 @@ public:
     /// The number of candidates that the CPU answered at the last update: pairs that have changed
     /// or, by Technique::compute, pairs found that single precision cannot decide; 0 for a list.
     [[nodiscard]] std::uint32_t left_to_cpu() const noexcept;
+    /// By Technique::compute, what the search that ended last has found, though others may be in
+    /// flight: of recorded commands, those of the last execution, whether collected or not. Where a
+    /// number exceeds capacity(), later ones may be too low. Zeros before the first search.
+    [[nodiscard]] PairTableCounts found() const noexcept;
+    /// By Technique::compute, the numbers that there is room for on the device.
+    [[nodiscard]] PairTableCounts capacity() const noexcept;
+    /// Gives back all memory of the device, and the rows with it. The next search has room for
+    /// twice what the last one has found. Does nothing while the device may be using the memory.
+    void trim() noexcept;
     /// The times of the last update. `plan`: finding pairs on the CPU, or the upload of what has
     /// changed; `device`: the wait; `decode`: pairs that the CPU answered; `total`: both halves,
     /// without the time between them.
@@ -174,10 +204,11 @@ protected:
 /// - collect() makes the rows from the last execution, each time it is called. The device must not
 ///   execute the commands during this call, nor while rows are read.
 /// - Where memory is too small, nothing searches again: the headers of results on the device say so
-///   (`overflow`), and collect() fails. The next call of World::record() grows the memory to what
-///   was found, collected or not. A later step of the search sees only what earlier steps could
-///   store, so up to five calls can be needed. World::update() grows all memory at once, and orders
-///   the instances by the poses on the device, which makes later searches faster.
+///   (`overflow`), collect() fails, and found() has the numbers. The next call of World::record()
+///   at least doubles what was too small, collected or not, and what comes later in proportion.
+///   PairTableOptions::headroom lets memory grow before that, `reserve` before anything was found.
+///   World::update() grows all memory at once, and orders the instances by the poses on the device,
+///   which makes later searches faster.
 /// - What was recorded, with all handles of results on the device, holds until the table is
 ///   recorded, submitted or updated again, successfully or not, unless that fails with not_ready or
 ///   invalid_submission; until the table is destroyed or assigned to; and until reload_shaders().

@@ -29,6 +29,14 @@ Json CliTest::answer(const Arguments& query) {
     return json;
 }
 
+double CliTest::distance_at(const std::string& file, const std::string& point,
+                            const Arguments& options) const {
+    const Json json = answer(Arguments{"query", "distance-field", a_, file, "-d", "0.02", "--rect",
+                                       "-3,-3,8,8", "--at", point, "--technique", "cpu"} +
+                             options);
+    return json.is_object() ? json.at("points").at(0).at("distance").get<double>() : 1e9;
+}
+
 void CliTest::expect_refused(const Arguments& arguments,
                              const std::vector<std::string>& parts) const {
     const auto before = folder_.contents();

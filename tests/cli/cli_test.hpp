@@ -36,6 +36,10 @@ protected:
     /// value, the test fails and the result is null.
     [[nodiscard]] static Json answer(const Arguments& query);
 
+    /// The signed distance to an outline at a point.
+    [[nodiscard]] double distance_at(const std::string& file, const std::string& point,
+                                     const Arguments& options) const;
+
     /// Expects exit status 2, an empty standard output, a message that contains all of `parts`, and
     /// unchanged files.
     void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const;

@@ -76,14 +76,5 @@ TEST_F(ClosestPoints, ClosestPointIsThatOfA) {
     EXPECT_DOUBLE_EQ(json.at("distance").get<double>(), 5.0);
 }
 
-TEST_F(ClosestPoints, OptionsOfOthersAreRefused) {
-    expect_refused(squares("separation") + Arguments{"-d", "1", "--contact-distance", "1"},
-                   {"--contact-distance", "contacts", "separation"});
-    expect_refused(squares("contacts") + Arguments{"-d", "1", "--contact-distance", "-1"},
-                   {"--contact-distance", "-1"});
-    expect_refused(squares("contacts") + Arguments{"-d", "1", "--normals", "wrong"},
-                   {"--normals", "wrong", "analytic"});
-}
-
 }  // namespace
 }  // namespace nearfield::test

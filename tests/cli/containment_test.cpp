@@ -82,11 +82,5 @@ TEST_F(ContainmentCommand, AsksForBothOrdersOfThePairsOfAScene) {
     EXPECT_EQ(json.at("results").at(0).at("clearance"), 1.0);
 }
 
-TEST_F(ContainmentCommand, RefusesWhatItCannotUse) {
-    expect_refused(squares("containment", "compute"), {"compute", "containment", "automatic"});
-    expect_refused(squares("containment", "cpu") + Arguments{"--contact-distance", "1"},
-                   {"--contact-distance", "contacts and time-of-impact"});
-}
-
 }  // namespace
 }  // namespace nearfield::test

@@ -132,11 +132,6 @@ TEST_F(FieldOptions, WithoutMeaningAreRefused) {
     const std::string here = std::filesystem::relative(folder_.path("a.npy")).string();
     expect_refused(with({"--features", here, "--gradient-field", "./" + here}),
                    {"a.npy", "another output"});
-    const Arguments other = squares("penetration") + Arguments{"-d", "0.05"};
-    for (const std::string option :
-         {"--sign", "--gradient", "--gradient-field", "--features", "--show", "--at"}) {
-        expect_refused(other + Arguments{option, "1,1"}, {option, "distance-field"});
-    }
 }
 
 }  // namespace

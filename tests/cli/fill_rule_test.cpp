@@ -8,16 +8,6 @@ namespace {
 /// Outlines that are not clean odd-even ones.
 class FillRules : public CliTest {
 protected:
-    /// The signed distance to an outline at a point.
-    double distance_at(const std::string& file, const std::string& point,
-                       const Arguments& options) const {
-        const Json json =
-            answer(Arguments{"query", "distance-field", a_, file, "-d", "0.05", "--rect",
-                             "-2,-2,8,8", "--at", point, "--technique", "cpu"} +
-                   options);
-        return json.is_object() ? json.at("points").at(0).at("distance").get<double>() : 1e9;
-    }
-
     // Two squares that overlap, and a frame with a hole.
     const std::string overlapping_ =
         folder_.write("overlapping.wkt", "MULTIPOLYGON(((0 0,4 0,4 4,0 4)),((2 2,6 2,6 6,2 6)))");

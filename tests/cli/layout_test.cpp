@@ -35,28 +35,6 @@ protected:
     }
 };
 
-TEST_F(Layouts, ARecordAnswersContainmentAndOverlap) {
-    const Outcome outcome = run_program({"scene", record_, "--json", "-"});
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("record.svg: skipped what has no outline: text (1)"),
-              std::string::npos)
-        << outcome.err;
-    const Json json = Json::parse(outcome.out);
-    EXPECT_EQ(pairs(json, "containment", "inside"),
-              (Pairs{{"bar", "bin"}, {"bar#2", "bin"}, {"bar#4", "bin"}}));
-    EXPECT_EQ(pairs(json, "intersection-test", "intersects"), (Pairs{{"bin", "bar"},
-                                                                     {"bin", "bar#2"},
-                                                                     {"bin", "bar#3"},
-                                                                     {"bin", "bar#4"},
-                                                                     {"bar", "bar#2"}}));
-    for (const Json& result : json.at("results")) {
-        if (result.at("query") == "containment" && result.at("a") == "bar#4" &&
-            result.at("b") == "bin") {
-            EXPECT_NEAR(result.at("clearance").get<double>(), 0.0, 1e-9);
-        }
-    }
-}
-
 TEST_F(Layouts, OtherKindsAndHitsAlone) {
     const Json depths =
         answer({"scene", record_, "--query", "separation-vector", "-d", "0.01", "--hits-only"});

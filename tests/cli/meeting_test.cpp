@@ -41,12 +41,5 @@ TEST_F(IntersectionTestCommand, AsksForEachPairOfASceneOnce) {
                                               "far long are apart", "far A are apart"}));
 }
 
-TEST_F(IntersectionTestCommand, RefusesTheRaster) {
-    expect_refused(squares("intersection-test", "raster"),
-                   {"raster", "intersection tests", "automatic"});
-    expect_refused(squares("intersection-test", "cpu") + Arguments{"--points", "vertices"},
-                   {"--points", "penetration"});
-}
-
 }  // namespace
 }  // namespace nearfield::test

@@ -56,11 +56,6 @@ TEST_F(TimeOfImpactCommand, KeepsWholeTurns) {
 TEST_F(TimeOfImpactCommand, RefusesWhatItCannotUse) {
     expect_refused(moving("1,0.5"), {"--end-pose-a", "X,Y,DEGREES"});
     expect_refused(moving("1,0.5,0") + Arguments{"--time-bound", "2"}, {"time bound", "2"});
-    expect_refused(moving("1,0.5,0") + Arguments{"--most-steps", "0"}, {"--most-steps", "range"});
-    expect_refused(squares("time-of-impact", "raster") + Arguments{"-d", "0.1"},
-                   {"raster", "times of impact"});
-    expect_refused(squares("separation", "cpu") + Arguments{"-d", "1", "--end-pose-b", "0,0,0"},
-                   {"--end-pose-b", "time-of-impact"});
 }
 
 TEST_F(TimeOfImpactCommand, MovesTheInstancesOfAScene) {
@@ -149,11 +144,6 @@ TEST_F(SeparationVectorCommand, SaysHowFarToGo) {
     EXPECT_NEAR(json.at("length").get<double>(), 0.25, 1e-9);
     EXPECT_EQ(json.at("lower_bound"), 0.0);
     EXPECT_LT(json.at("work").get<double>(), 10'000.0);
-    expect_refused(query + Arguments{"0,0,0", "--most-work", "0"}, {"--most-work", "range"});
-    expect_refused(squares("separation", "cpu") + Arguments{"-d", "1", "--most-work", "5"},
-                   {"--most-work", "separation-vector"});
-    expect_refused(squares("separation-vector", "compute") + Arguments{"-d", "0.1"},
-                   {"compute", "separation vectors"});
 }
 
 }  // namespace

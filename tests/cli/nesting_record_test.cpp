@@ -58,20 +58,5 @@ TEST_F(NestingRecord, OneCommandAnswersContainmentAndOverlapOfAllItems) {
     EXPECT_NEAR(clearances.at("gusset-2"), 160.0, 1e-9);
 }
 
-TEST_F(NestingRecord, SpacingIsCheckedByAnOffset) {
-    // By 2.5 mm all around, parts meet that are closer than 5 mm: only the two that overlap.
-    const auto overlaps = [&](const std::string& offset) {
-        std::size_t count = 0;
-        const Json json = answer({"scene", record_, "--units", "mm", "--query", "intersection-test",
-                                  "--hits-only", "--offset", offset});
-        for (const Json& result : json.at("results")) {
-            count += result.at("a") != "bin" && result.at("b") != "bin" ? 1U : 0U;
-        }
-        return count;
-    };
-    EXPECT_EQ(overlaps("2.49"), 1U);
-    EXPECT_GT(overlaps("4.1"), 2U);
-}
-
 }  // namespace
 }  // namespace nearfield::test

@@ -7,18 +7,7 @@ namespace nearfield::test {
 namespace {
 
 /// Outlines that grow or shrink before they are asked about.
-class Offsets : public CliTest {
-protected:
-    /// The signed distance to an outline at a point.
-    double distance_at(const std::string& file, const std::string& point,
-                       const Arguments& options) const {
-        const Json json =
-            answer(Arguments{"query", "distance-field", a_, file, "-d", "0.02", "--rect",
-                             "-3,-3,5,5", "--at", point, "--technique", "cpu"} +
-                   options);
-        return json.is_object() ? json.at("points").at(0).at("distance").get<double>() : 1e9;
-    }
-};
+class Offsets : public CliTest {};
 
 TEST_F(Offsets, MoveTheBoundariesOfBothWithinTheBound) {
     const Arguments ask{"query", "separation", a_, b_, "--pose-b", "9,0,0", "--deviation", "1e-4"};

@@ -109,27 +109,5 @@ TEST_F(Output, ADiskThatIsFullIsNoSuccess) {
     EXPECT_NE(outcome.err.find("/dev/full"), std::string::npos) << outcome.err;
 }
 
-TEST_F(Output, BothFormatsOfAShapeGiveTheSameAnswer) {
-    const std::string geojson = folder_.write("parts.geojson", R"({"type": "MultiPolygon",
-        "coordinates": [[[[0, 0], [4, 0], [4, 4.125], [0, 4], [0, 0]],
-                         [[1, 1], [1, 3], [3, 3], [3, 1.1], [1, 1]]],
-                        [[[6, 0], [8, 1e0], [7.5, 3], [6, 0]]]]})");
-    const std::string wkt =
-        folder_.write("parts.wkt",
-                      "MultiPolygon (((0 0, 4 0, 4 4.125, 0 4, 0 0),\n(1 1,1 3,3 3,3 1.1,1 1)),"
-                      "((6 0,8 1,7.5 3,6 0)))");
-    for (const auto& query : {"penetration", "intersection", "distance-field"}) {
-        const auto ask = [&](const std::string& first, const std::string& second) {
-            Json json =
-                answer({"query", query, first, second, "-d", "0.1", "--pose-b", "1.5,0.7,20"});
-            if (json.is_object()) {
-                json.erase("timings_ms");
-            }
-            return json;
-        };
-        EXPECT_EQ(ask(geojson, geojson), ask(wkt, wkt)) << query;
-    }
-}
-
 }  // namespace
 }  // namespace nearfield::test

@@ -104,11 +104,6 @@ TEST_F(Device, TheResultSaysWhichTechniqueAnswered) {
     ASSERT_NE(technique, unnamed.end());
     unnamed.erase(technique, technique + 2);
     EXPECT_EQ(answer(unnamed).at("technique"), "raster");
-    expect_refused(squares("distance-field", "cpu") +
-                       Arguments{"-d", "0.1", "--gradient", "blended", "--at", "0.5,0.5"},
-                   {"technique cpu", "blended"});
-    expect_refused(squares("penetration", "fast") + Arguments{"-d", "0.1"},
-                   {"--technique", "fast", "raster", "cpu", "automatic"});
 }
 
 class LocalizationOptions : public CliTest {};

@@ -1,5 +1,6 @@
 #include "cli_test.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdlib>
 
@@ -94,20 +95,31 @@ TEST_F(Refused, NamesThatAreNotKnown) {
     expect_refused(ask("Penetration", {"-d", "1"}), {"Penetration"});
     expect_refused(ask("penetration", {"-d", "1", "--points", "some"}), {"--points", "vertices"});
     expect_refused(ask("intersection", {"-d", "1", "--kind", "volume"}), {"--kind", "volume"});
-    expect_refused(ask("penetration", {"-d", "1", "--technique", "magic"}), {"--technique"});
+    expect_refused(squares("penetration", "magic") + Arguments{"-d", "1"},
+                   {"--technique", "magic", "raster", "cpu", "automatic"});
+    expect_refused(ask("contacts", {"-d", "1", "--normals", "wrong"}),
+                   {"--normals", "wrong", "analytic"});
     expect_refused(ask("intersection", {"-d", "1", "--strategy", "magic"}),
                    {"--strategy", "magic", "stencil", "blend", "logic-op", "depth"});
-    expect_refused(ask("penetration", {"-d", "1", "--frobnicate"}), {"--frobnicate"});
-    expect_refused({"query", "penetration", a_, "-d", "1"}, {"B"});
     expect_refused(squares("penetration") + Arguments{a_, "-d", "1"}, {a_});
     expect_refused({"frobnicate"}, {"frobnicate", "query", "bench", "info"});
     expect_refused({}, {"subcommand"});
 }
 
-TEST_F(Refused, GradientsByBlendingOfTheComputeTechnique) {
-    const Arguments asked{"query", "distance-field", a_, b_, "-d", "1", "--technique", "compute"};
-    const Arguments blended{"--at", "0.5,0.5", "--gradient", "blended"};
-    expect_refused(asked + blended, {"compute", "blended"});
+TEST_F(Refused, WhatATechniqueDoesNotAnswer) {
+    for (const auto& [kind, technique, words] :
+         {std::array{"containment", "compute", "containment"},
+          std::array{"intersection-test", "raster", "intersection tests"},
+          std::array{"time-of-impact", "raster", "times of impact"},
+          std::array{"separation-vector", "compute", "separation vectors"}}) {
+        expect_refused(squares(kind, technique) + Arguments{"-d", "0.1"},
+                       {technique, words, "automatic"});
+    }
+    const Arguments blended{"-d", "0.1", "--gradient", "blended", "--at", "0.5,0.5"};
+    for (const char* technique : {"cpu", "compute"}) {
+        expect_refused(squares("distance-field", technique) + blended,
+                       {std::string("technique ") + technique, "blended"});
+    }
 }
 
 TEST_F(Refused, AFieldOfNothingInCommon) {

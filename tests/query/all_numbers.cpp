@@ -16,9 +16,7 @@ std::vector<double> all_numbers(const Results& results) {
                             s.regions, s.localization.nodes_evaluated,
                             s.localization.pairs_rejected, s.localization.edges_kept, s.technique);
                 if constexpr (requires { result.gradients; }) {
-                    numbers.add(result.origin, result.width, result.height, result.values,
-                                result.features, result.gradients, result.unique, result.points,
-                                result.gradient_error_bound);
+                    numbers.add_field(result);
                 } else {
                     numbers.add_answer(result);
                 }

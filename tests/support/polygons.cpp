@@ -49,6 +49,10 @@ int Random::whole(int low, int high) {
     return low + static_cast<int>(between(0.0, high - low + 1.0));
 }
 
+std::uint32_t Random::below(std::uint32_t end) {
+    return static_cast<std::uint32_t>(between(0.0, end));
+}
+
 double Random::scale(double low, double high) {
     return low * std::pow(high / low, between(0.0, 1.0));
 }
@@ -145,6 +149,14 @@ Rings pentagram() {
         ring.push_back(polar(1.0, full_turn * (2 * i % 5) / 5 + 0.1));
     }
     return {ring};
+}
+
+Rings nested_pentagons(int rings) {
+    Rings all;
+    for (int i = 0; i < rings; ++i) {
+        all.push_back(scaled_and_moved(regular(5), 1.0 - 0.95 * i / rings, {}).front());
+    }
+    return all;
 }
 
 Rings bow_tie() {

@@ -12,10 +12,22 @@ using test_support::HostAllocator;
 using test_support::HostFrames;
 using test_support::WatchedCall;
 
-/// Device memory from an engine's own allocator, on a real driver under validation.
-TEST_F(HostTable, DeviceMemoryIsTheHosts) {
+/// Device memory from an engine's own allocator, on a real driver under validation; it may not tell
+/// what type of memory it gives.
+class HostMemory : public HostTable, public testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(WhoseTypesAre, HostMemory, testing::Bool(), [](const auto& told) {
+    return std::string(told.param ? "Told" : "NotTold");
+});
+
+TEST_P(HostMemory, IsWhereAllIsKept) {
     make_host();
     HostAllocator allocator(host());
+    if (!GetParam()) {
+        allocator.bend = [](const MemoryRequest&, MemoryAllocation& given) {
+            given.memory_type = unknown_memory_type;
+            return VK_SUCCESS;
+        };
+    }
     std::map<std::string, int> calls;
     std::vector<double> expected;
     {

@@ -4,66 +4,52 @@
 #include <tests/unit/common/device_scene_test.hpp>
 #include <tools/io/query_json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace nearfield::tools {
 namespace {
 
-/// What stays the same whoever finds a hit.
-struct Found {
-    std::string a;
-    std::string b;
-    std::size_t count = 0;
-    double length = 0.0;  ///< depth or distance
-    bool intersects = false;
-    double error_bound = 0.0;
-    double tolerance = 0.0;
-    double cell = 0.0;
-    std::vector<Vector2> records;  ///< their points
-    std::size_t clusters = 0;
-};
+constexpr double tolerance = 0.02;
 
-Found found_in(const SceneAnswer& answer) {
-    const ResultSummary& summary = summary_of(answer.result);
-    Found found;
-    found.a = answer.a;
-    found.b = answer.b;
-    found.intersects = summary.intersects;
-    found.error_bound = summary.error_bound;
-    found.tolerance = summary.tolerance;
-    found.cell = summary.cell;
+/// All that stays the same whoever finds a hit.
+void expect_same(const SceneAnswer& found, const SceneAnswer& expected) {
+    EXPECT_EQ(found.a, expected.a);
+    EXPECT_EQ(found.b, expected.b);
     std::visit(
-        [&found](const auto& result) {
-            if constexpr (requires { result.count; }) {
-                found.count = result.count;
+        [&expected](const auto& one) {
+            const auto& other = std::get<std::decay_t<decltype(one)>>(expected.result);
+            EXPECT_EQ(one.intersects, other.intersects);
+            EXPECT_EQ(one.error_bound, other.error_bound);
+            EXPECT_EQ(one.tolerance, other.tolerance);
+            EXPECT_EQ(one.cell, other.cell);
+            if constexpr (requires { one.count; }) {
+                EXPECT_EQ(one.count, other.count);
             }
-            if constexpr (requires { result.deepest; }) {
-                found.length = result.deepest.depth;
+            if constexpr (requires { one.deepest; }) {
+                EXPECT_NEAR(one.deepest.depth, other.deepest.depth, 1e-3 * tolerance);
             }
-            if constexpr (requires { result.distance; }) {
-                found.length = result.distance;
+            if constexpr (requires { one.distance; }) {
+                EXPECT_NEAR(one.distance, other.distance, 1e-3 * tolerance);
             }
-            if constexpr (requires { result.points; }) {
-                for (const auto& record : result.points) {
-                    if constexpr (requires { record.position; }) {
-                        found.records.push_back(record.position);
-                    }
-                }
+            if constexpr (requires { one.points.front().position; }) {
+                EXPECT_TRUE(std::ranges::equal(
+                    one.points, other.points, {}, [](const auto& point) { return point.position; },
+                    [](const auto& point) { return point.position; }));
             }
-            if constexpr (requires { result.manifold; }) {
-                found.clusters = result.manifold.size();
+            if constexpr (requires { one.manifold; }) {
+                EXPECT_EQ(one.manifold.size(), other.manifold.size());
             }
         },
-        answer.result);
-    return found;
+        found.result);
 }
 
 class DevicePairScenes : public DeviceSceneTest {
 protected:
-    static constexpr double tolerance = 0.02;
-
     static SceneQuery hits_of(QueryType type) {
         SceneQuery query;
         query.request.type = type;
@@ -74,42 +60,36 @@ protected:
         return query;
     }
 
-    std::vector<Found> found_by(Scene& scene, Technique technique, FrameInput input) {
-        set_technique(scene, technique);
-        SceneRunner runner(scene, "scene", context());
+    static std::vector<SceneAnswer> answers_of(SceneRunner& runner, FrameInput input,
+                                               Technique technique) {
         static_cast<void>(runner.run_frame(FrameInput::all));
         static_cast<void>(runner.run_frame(input));
         runner.require_results();
-        EXPECT_TRUE(runner.answers().empty() || runner.technique() == to_string(technique));
-        EXPECT_GE(runner.pair_count(), runner.answers().size());
-        std::vector<Found> all;
-        for (const SceneAnswer& answer : runner.answers()) {
+        const std::vector<SceneAnswer> answers = runner.answers();
+        EXPECT_TRUE(answers.empty() || runner.technique() == to_string(technique));
+        EXPECT_GE(runner.pair_count(), answers.size());
+        for (const SceneAnswer& answer : answers) {
             EXPECT_EQ(summary_of(answer.result).technique, technique);
-            all.push_back(found_in(answer));
         }
-        return all;
+        return answers;
     }
 
     /// Compares with the CPU, which finds the pairs of a batch. Returns the number of hits.
     std::size_t compare(const SceneQuery& query, Scene scene, FrameInput input = FrameInput::all) {
         scene.queries.push_back(query);
         EXPECT_FALSE(is_for_device_pairs(query)) << "automatic";
-        const std::vector<Found> expected = found_by(scene, Technique::cpu, input);
-        const std::vector<Found> found = found_by(scene, Technique::compute, input);
-        EXPECT_TRUE(is_for_device_pairs(scene.queries.front()));
+        Scene of_device = scene;
+        set_technique(scene, Technique::cpu);
+        set_technique(of_device, Technique::compute);
+        EXPECT_TRUE(is_for_device_pairs(of_device.queries.front()));
+        SceneRunner reference(scene, "scene", context());
+        SceneRunner runner(of_device, "scene", context());
+        const std::vector<SceneAnswer> expected = answers_of(reference, input, Technique::cpu);
+        const std::vector<SceneAnswer> found = answers_of(runner, input, Technique::compute);
         EXPECT_EQ(found.size(), expected.size());
         for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
-            SCOPED_TRACE(expected[i].a + " " + expected[i].b);
-            EXPECT_EQ(found[i].a, expected[i].a);
-            EXPECT_EQ(found[i].b, expected[i].b);
-            EXPECT_EQ(found[i].count, expected[i].count);
-            EXPECT_NEAR(found[i].length, expected[i].length, 1e-3 * tolerance);
-            EXPECT_EQ(found[i].intersects, expected[i].intersects);
-            EXPECT_EQ(found[i].error_bound, expected[i].error_bound);
-            EXPECT_EQ(found[i].tolerance, expected[i].tolerance);
-            EXPECT_EQ(found[i].cell, expected[i].cell);
-            EXPECT_EQ(found[i].records, expected[i].records);
-            EXPECT_EQ(found[i].clusters, expected[i].clusters);
+            SCOPED_TRACE(std::string(expected[i].a) + " " + std::string(expected[i].b));
+            expect_same(found[i], expected[i]);
         }
         return found.size();
     }

@@ -40,7 +40,7 @@ bool is_on_boundary(const std::vector<Ring>& rings, const Vector& point) {
 
 /// Most points are level with vertices, wherever the rings begin.
 TEST(Containment, AgreesWithARayOnALattice) {
-    samples::Random random(7);
+    test::Random random(7);
     int inside = 0;
     for (int round = 0; round < 2000; ++round) {
         std::vector<Ring> rings(1 + random.below(2));

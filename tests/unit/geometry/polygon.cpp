@@ -18,10 +18,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-const Ring square = samples::rectangle(0.0, 0.0, 1.0, 1.0);
+const Ring square = test::rectangle({0.0, 0.0}, {1.0, 1.0}).front();
 
 /// Expects that a shape is rejected with the message and that the polygon is unchanged.
-void expect_refused(const samples::Rings& rings, const std::string& message) {
+void expect_refused(const test::Rings& rings, const std::string& message) {
     Polygon polygon = samples::polygon({{{0.0, 0.0}, {4.0, 0.0}, {0.0, 2.0}}});
     const Status status = polygon.assign(rings);
     EXPECT_EQ(status.code(), StatusCode::invalid_shape);
@@ -52,7 +52,7 @@ TEST(PolygonAssign, RefusesCoordinatesOutOfRange) {
     expect_refused({with(square, 2, {1.0, -2e12})},
                    "ring 0, vertex 2: y is -2e+12, more than 1e+12 from the origin");
     Polygon polygon;
-    EXPECT_TRUE(polygon.assign(samples::Rings{with(square, 2, {1e12, -1e12})}).ok());
+    EXPECT_TRUE(polygon.assign(test::Rings{with(square, 2, {1e12, -1e12})}).ok());
 }
 
 TEST(PolygonAssign, RefusesNoRing) {
@@ -69,7 +69,7 @@ TEST(PolygonAssign, RefusesFewerThanThreeDifferentVertices) {
 }
 
 TEST(PolygonAssign, RefusesRingsOnOneLine) {
-    samples::Random random(1);
+    test::Random random(1);
     for (int round = 0; round < 200; ++round) {
         // Rounded coordinates: the vertices deviate from the line by the precision of a double.
         const double angle = random.between(0.0, 7.0);
@@ -90,22 +90,21 @@ TEST(PolygonAssign, RefusesShapesThatAreTooSmall) {
         const std::string message = "the shape spans " + number(extent) +
                                     " along its longer side; the least is 1e-20, since results "
                                     "that are smaller would underflow: use other units";
-        expect_refused({samples::rectangle(0.0, 0.0, extent, 0.5 * extent)}, message);
-        expect_refused({samples::rectangle(-extent, 0.0, -0.5 * extent, extent)}, message);
+        expect_refused(test::rectangle({0.0, 0.0}, {extent, 0.5 * extent}), message);
+        expect_refused(test::rectangle({-extent, 0.0}, {-0.5 * extent, extent}), message);
     }
     // A tiny ring in a sufficiently large shape vanishes in its rounding and does no harm.
-    const std::vector<Ring> rings{samples::rectangle(0.0, 0.0, 1e-200, 1e-200),
-                                  samples::rectangle(0.0, 0.0, 1.0, 1.0)};
+    const std::vector<Ring> rings{test::rectangle({0.0, 0.0}, {1e-200, 1e-200}).front(), square};
     Polygon polygon;
     EXPECT_TRUE(polygon.assign(rings).ok());
 }
 
 TEST(PolygonAssign, AcceptsSmallAndThinRings) {
     const std::vector<Ring> rings{
-        samples::rectangle(1e6, 1e6, 1e6 + 1e-3, 1e6 + 1e-3),
-        samples::rectangle(1e12, -1e12, 1e12 - 1.0, 1.0 - 1e12),
-        samples::rectangle(0.0, 0.0, smallest_extent, smallest_extent),
-        samples::rectangle(0.0, 0.0, 1e6, 1e-6),
+        test::rectangle({1e6, 1e6}, {1e6 + 1e-3, 1e6 + 1e-3}).front(),
+        test::rectangle({1e12, -1e12}, {1e12 - 1.0, 1.0 - 1e12}).front(),
+        test::rectangle({0.0, 0.0}, {smallest_extent, smallest_extent}).front(),
+        test::rectangle({0.0, 0.0}, {1e6, 1e-6}).front(),
         {{-1.0, -1.0}, {1.0, 1.0}, {1.0, -1.0}, {-1.0, 1.0}},  // no signed area
         {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}, {1.0, 1e-9}},
     };
@@ -128,22 +127,22 @@ TEST(PolygonAssign, DropsTheClosingVertexAndKeepsOtherRepeats) {
 TEST(PolygonAssign, CountsItsRevisions) {
     Polygon polygon;
     const std::uint64_t first = polygon.revision();
-    ASSERT_TRUE(polygon.assign(samples::Rings{square}).ok());
+    ASSERT_TRUE(polygon.assign(test::Rings{square}).ok());
     const std::uint64_t second = polygon.revision();
     EXPECT_NE(second, first);
     // The same rings may be an update of something else that depends on them.
-    ASSERT_TRUE(polygon.assign(samples::Rings{square}).ok());
+    ASSERT_TRUE(polygon.assign(test::Rings{square}).ok());
     EXPECT_NE(polygon.revision(), second);
     const std::uint64_t third = polygon.revision();
-    ASSERT_FALSE(polygon.assign(samples::Rings{}).ok());
+    ASSERT_FALSE(polygon.assign(test::Rings{}).ok());
     EXPECT_EQ(polygon.revision(), third) << "nothing was replaced";
 }
 
 TEST(Polygon, FindsRingsAndNextVertices) {
-    samples::Random random(3);
-    samples::Rings rings;
+    test::Random random(3);
+    test::Rings rings;
     for (std::uint32_t i = 0; i < 20; ++i) {
-        rings.push_back(samples::star(random, 3 + random.below(5), 0.5, 1.0));
+        rings.push_back(test::star(random, random.whole(3, 7), 0.5).front());
     }
     const Polygon polygon = samples::polygon(rings);
     std::uint32_t index = 0;
@@ -163,10 +162,10 @@ TEST(Polygon, FindsRingsAndNextVertices) {
 }
 
 TEST(TransformedPolygon, PlacesVerticesAndTakesPointsBack) {
-    samples::Random random(4);
-    for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
+    test::Random random(4);
+    for (const test::NamedRings& shape : samples::assorted_shapes(random)) {
         const double offset = random.between(-1e6, 1e6);
-        const samples::Rings rings = samples::moved(shape.rings, offset, -offset);
+        const test::Rings rings = test::scaled_and_moved(shape.rings, 1.0, {offset, -offset});
         const Polygon polygon = samples::polygon(rings);
         const Pose pose{{random.between(-1e6, 1e6), random.between(-9.0, 9.0)},
                         random.between(-9.0, 9.0)};
@@ -189,8 +188,8 @@ TEST(TransformedPolygon, PlacesVerticesAndTakesPointsBack) {
 }
 
 TEST(TransformedPolygon, ChainBoxesAreTheBoxesOfTheirVertices) {
-    samples::Random random(5);
-    for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
+    test::Random random(5);
+    for (const test::NamedRings& shape : samples::assorted_shapes(random)) {
         const Polygon polygon = samples::polygon(shape.rings);
         const TransformedPolygon placed(polygon, {{3.0, 4.0}, random.between(0.0, 6.0)});
         for (int round = 0; round < 100; ++round) {
@@ -228,8 +227,8 @@ bool inside_by_angles(const TransformedPolygon& placed, const Vector& p) {
 }
 
 TEST(Contains, AgreesWithWindingNumbers) {
-    samples::Random random(6);
-    for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
+    test::Random random(6);
+    for (const test::NamedRings& shape : samples::assorted_shapes(random)) {
         const Polygon polygon = samples::polygon(shape.rings);
         for (const double far : {0.0, 1e6}) {
             const TransformedPolygon placed(polygon, {{far, -far}, random.between(0.0, 6.0)});

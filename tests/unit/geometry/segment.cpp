@@ -12,7 +12,7 @@ namespace nearfield::geometry {
 namespace {
 
 TEST(NearestOnSegment, NoSampleIsNearer) {
-    samples::Random random(1);
+    test::Random random(1);
     for (int round = 0; round < 3000; ++round) {
         const double far = round % 3 == 0 ? 1e6 : 0.0;
         const double thin = round % 2 == 0 ? 1.0 : 1e-6;
@@ -96,7 +96,7 @@ TEST(SegmentsIntersect, AllSegmentsOfASmallLattice) {
 }
 
 TEST(SegmentsMeet, WhereTheirDistanceIsWithinTheMargin) {
-    samples::Random random(3);
+    test::Random random(3);
     int within = 0;
     int without = 0;
     for (int round = 0; round < 20000; ++round) {

@@ -100,11 +100,12 @@ void expect_lawful(const Polygon& polygon, double deviation, double longest_run,
 }
 
 TEST(Simplify, KeepsItsLawsOnAllShapes) {
-    samples::Random random(1);
+    test::Random random(1);
     for (int round = 0; round < 4; ++round) {
-        for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
+        for (const test::NamedRings& shape : samples::assorted_shapes(random)) {
             const Polygon polygon = samples::polygon(shape.rings);
-            const Polygon far = samples::polygon(samples::moved(shape.rings, 1e6, -1e6));
+            const Polygon far =
+                samples::polygon(test::scaled_and_moved(shape.rings, 1.0, {1e6, -1e6}));
             for (const double deviation : {0.0, 1e-17, 1e-12, 1e-5, 1e-3, 0.03, 0.3, 5.0}) {
                 for (const double longest_run : {endless, 0.5, 0.01, 0.0}) {
                     const std::string what = shape.name + ", deviation " +
@@ -120,7 +121,7 @@ TEST(Simplify, KeepsItsLawsOnAllShapes) {
 
 TEST(Simplify, KeepsItsLawsOnWanderingLines) {
     // Steps of the size of the deviation, in directions that often fold back.
-    samples::Random random(2);
+    test::Random random(2);
     for (int round = 0; round < 200; ++round) {
         Ring ring;
         Vector2 at{0.0, 0.0};
@@ -169,11 +170,13 @@ void expect_same_in_window(const TransformedPolygon& placed, const Box& window, 
 }
 
 TEST(Simplify, IsTheSameInEveryWindow) {
-    samples::Random random(5);
+    test::Random random(5);
     for (int round = 0; round < 200; ++round) {
-        samples::Rings rings{samples::coast(random, 3 + random.below(700), 1.0)};
+        test::Rings rings = test::coast(random, random.whole(3, 702), 0.5);
         if (round % 2 == 0) {
-            rings.push_back(samples::star(random, 3 + random.below(200), 0.1, 0.3));
+            rings.push_back(
+                test::scaled_and_moved(test::star(random, random.whole(3, 202), 0.3), 0.3, {})
+                    .front());
         }
         const Polygon polygon = samples::polygon(rings);
         const TransformedPolygon placed(polygon, {{random.between(-1.0, 1.0), 0.0}, 1.0 * round});
@@ -187,9 +190,7 @@ TEST(Simplify, IsTheSameInEveryWindow) {
 }
 
 TEST(Simplify, MergesWhatItMay) {
-    samples::Random random(3);
-    const std::uint32_t size = 4000;
-    const Polygon circle = samples::polygon({samples::star(random, size, 1.0, 1.0)});
+    const Polygon circle = samples::polygon(test::regular(4000));
     for (const double deviation : {1e-2, 1e-3, 1e-4}) {
         std::vector<SimplifiedEdge> edges;
         simplify(circle, deviation, endless, edges);

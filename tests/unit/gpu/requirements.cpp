@@ -322,7 +322,6 @@ TEST_F(GpuRequirements, NullHandlesAreNamed) {
         {"instance", [](HostDevice& host) { host.instance = VK_NULL_HANDLE; }},
         {"physical_device", [](HostDevice& host) { host.physical_device = VK_NULL_HANDLE; }},
         {"::device", [](HostDevice& host) { host.device = VK_NULL_HANDLE; }},
-        {"queue", [](HostDevice& host) { host.queue = VK_NULL_HANDLE; }},
         {"get_instance_proc_addr", [](HostDevice& host) { host.get_instance_proc_addr = nullptr; }},
     };
     for (const auto& [name, clear] : cases) {

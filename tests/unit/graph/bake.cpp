@@ -32,14 +32,6 @@ BakedGraph bake_valid(const Graph& graph) {
     return baked.has_value() ? *baked : BakedGraph{};
 }
 
-std::vector<std::string> names_in_order(const Graph& graph, const BakedGraph& baked) {
-    std::vector<std::string> names;
-    for (const BakedPass& pass : baked.passes) {
-        names.push_back(graph.passes()[pass.pass].name);
-    }
-    return names;
-}
-
 /// True if `before` must run before `after`, according to the handles of the two.
 bool must_precede(const Pass& before, const Pass& after) {
     for (const Use& first : before.uses) {
@@ -223,25 +215,6 @@ TEST(GraphBake, MemoryIsTakenOverWithBarriersOnMemory) {
     EXPECT_GT(needed, 0U);
 }
 
-TEST(GraphBake, NoBarrierIsNeedless) {
-    for_random_graphs([](const Graph& graph, const BakedGraph& original) {
-        for (std::size_t position = 0; position <= original.passes.size(); ++position) {
-            const auto list = [position](BakedGraph& baked) -> std::vector<Barrier>& {
-                return position < baked.passes.size() ? baked.passes[position].barriers
-                                                      : baked.to_host;
-            };
-            BakedGraph copy = original;
-            for (std::size_t i = 0; i < list(copy).size(); ++i) {
-                BakedGraph baked = original;
-                list(baked).erase(list(baked).begin() + static_cast<std::ptrdiff_t>(i));
-                ASSERT_NE(simulate(graph, baked), "")
-                    << "barrier " << i << " of pass " << position << "\n"
-                    << print_text(graph, original);
-            }
-        }
-    });
-}
-
 TEST(GraphBake, AttachmentsLoadAndStoreWhatIsNeeded) {
     for_random_graphs([](const Graph& graph, const BakedGraph& baked) {
         std::set<std::uint32_t> needed_later;
@@ -278,48 +251,6 @@ TEST(GraphBake, EmptyGraph) {
     EXPECT_EQ(baked.memory_slots, 0U);
 }
 
-TEST(GraphBake, ReaderOfAnOldVersionRunsBeforeItIsReplaced) {
-    Graph graph;
-    const Handle sign = color(graph, "sign");
-    add_pass(graph, "replace", PassKind::graphics, {writes(next(sign), Access::color_attachment)});
-    add_pass(graph, "look", PassKind::compute, {reads(next(sign), Access::sampled_in_compute)});
-    add_pass(graph, "fill", PassKind::graphics, {writes(sign, Access::color_attachment)});
-    EXPECT_EQ(names_in_order(graph, bake_valid(graph)),
-              (std::vector<std::string>{"fill", "look", "replace"}));
-}
-
-TEST(GraphBake, ImagesOfAChainTakeTurnsInOneSlot) {
-    Graph graph;
-    Handle former = color(graph, "image0");
-    const Handle records = graph.import_buffer({.name = "records"});
-    add_pass(graph, "draw0", PassKind::graphics, {writes(former, Access::color_attachment)});
-    Handle chain = records;
-    for (int i = 1; i < 6; ++i) {
-        const std::string number = std::to_string(i);
-        add_pass(graph, "look" + number, PassKind::compute,
-                 {reads(next(former), Access::sampled_in_compute),
-                  writes(chain, Access::storage_write_in_compute)});
-        chain = next(chain);
-        former = color(graph, "image" + number);
-        add_pass(graph, "draw" + number, PassKind::graphics,
-                 {reads(chain, Access::vertex_buffer), writes(former, Access::color_attachment)});
-    }
-    const BakedGraph baked = bake_valid(graph);
-    EXPECT_EQ(baked.memory_slots, 1U) << print_text(graph, baked);
-    EXPECT_EQ(simulate(graph, baked), "");
-}
-
-TEST(GraphBake, HostWrittenBufferNeedsNoBarrierBeforeItsReads) {
-    Graph graph;
-    const Handle edges = graph.import_buffer({.name = "edges", .written_by_host = true});
-    add_pass(graph, "look", PassKind::compute, {reads(edges, Access::storage_read_in_compute)});
-    add_pass(graph, "again", PassKind::compute, {reads(edges, Access::storage_read_in_compute)});
-    const BakedGraph baked = bake_valid(graph);
-    EXPECT_TRUE(baked.passes[0].barriers.empty());
-    EXPECT_TRUE(baked.passes[1].barriers.empty());
-    EXPECT_TRUE(baked.to_host.empty());
-}
-
 TEST(GraphBake, WriteAfterReadWaitsAndMakesNothingAvailable) {
     Graph graph;
     const Handle edges = graph.import_buffer({.name = "edges", .written_by_host = true});
@@ -331,40 +262,6 @@ TEST(GraphBake, WriteAfterReadWaitsAndMakesNothingAvailable) {
     EXPECT_EQ(barrier.source_stages, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
     EXPECT_EQ(barrier.destination_stages, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
     EXPECT_EQ(barrier.source_access, 0U);
-}
-
-TEST(GraphBake, ReadsInARowNeedOneBarrierForEachStage) {
-    Graph graph;
-    const Handle edges = graph.import_buffer({.name = "edges"});
-    const Handle sign = color(graph, "sign");
-    add_pass(graph, "list", PassKind::compute, {writes(edges, Access::storage_write_in_compute)});
-    add_pass(graph, "look", PassKind::compute,
-             {reads(next(edges), Access::storage_read_in_compute)});
-    add_pass(graph, "again", PassKind::compute,
-             {reads(next(edges), Access::storage_read_in_compute)});
-    add_pass(graph, "draw", PassKind::graphics,
-             {reads(next(edges), Access::vertex_buffer), writes(sign, Access::color_attachment)});
-    const BakedGraph baked = bake_valid(graph);
-    EXPECT_EQ(baked.passes[1].barriers.size(), 1U);
-    EXPECT_EQ(baked.passes[2].barriers.size(), 0U);
-    ASSERT_EQ(baked.passes[3].barriers.size(), 2U);
-    EXPECT_EQ(baked.passes[3].barriers[0].destination_stages, VK_PIPELINE_STAGE_VERTEX_INPUT_BIT);
-}
-
-TEST(GraphBake, OnlyWhatWasWrittenGoesToTheHost) {
-    Graph graph;
-    const Handle records = graph.import_buffer({.name = "records", .read_by_host = true});
-    static_cast<void>(graph.import_buffer({.name = "untouched", .read_by_host = true}));
-    const Handle scratch = graph.import_buffer({.name = "scratch"});
-    add_pass(graph, "resolve", PassKind::compute,
-             {writes(records, Access::storage_write_in_compute),
-              writes(scratch, Access::storage_write_in_compute)});
-    const BakedGraph baked = bake_valid(graph);
-    EXPECT_TRUE(baked.passes[0].barriers.empty());
-    ASSERT_EQ(baked.to_host.size(), 1U);
-    EXPECT_EQ(baked.to_host[0].resource, records.resource);
-    EXPECT_EQ(baked.to_host[0].destination_stages, VK_PIPELINE_STAGE_HOST_BIT);
-    EXPECT_EQ(baked.to_host[0].destination_access, VK_ACCESS_HOST_READ_BIT);
 }
 
 TEST(GraphBake, ImportedResourcesWaitForWhatIsOutsideAndAreExported) {

@@ -18,9 +18,8 @@
 #include <string>
 #include <vector>
 
-// tests/unit/graph/bake.cpp proves that the memory model detects every removed wait. These tests
-// show that every kind of wait has been tested, and that the commands sent to the driver equal the
-// baked waits.
+// No barrier is needless, every kind of wait has been tested, and the commands sent to the driver
+// equal the baked waits.
 
 namespace nearfield::graph::testing {
 namespace {

@@ -9,19 +9,39 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/allocations.hpp>
+#include <tests/support/fake_loader.hpp>
 #include <tests/unit/gpu/fixture.hpp>
 #include <tests/unit/graph/support.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <map>
 #include <memory>
+#include <utility>
 
 namespace nearfield::graph::testing {
 namespace {
 
-class GraphExecute : public test_support::GpuTest {};
+void VKAPI_CALL no_begin(VkCommandBuffer, const VkRenderPassBeginInfo*, VkSubpassContents) {}
+void VKAPI_CALL no_end(VkCommandBuffer) {}
+void VKAPI_CALL no_label(VkCommandBuffer, const VkDebugUtilsLabelEXT*) {}
+void VKAPI_CALL no_timestamp(VkCommandBuffer, VkPipelineStageFlagBits, VkQueryPool, std::uint32_t) {
+}
+
+class GraphExecute : public test_support::GpuTest {
+protected:
+    /// The device, of which only barriers are recorded, by a function.
+    [[nodiscard]] test_support::FakeLoader recording_by(PFN_vkCmdPipelineBarrier barrier) const {
+        using test_support::erased;
+        test_support::Lies lies;
+        lies.entry_points = {{"vkCmdBeginRenderPass", erased(&no_begin)},
+                             {"vkCmdEndRenderPass", erased(&no_end)},
+                             {"vkCmdBeginDebugUtilsLabelEXT", erased(&no_label)},
+                             {"vkCmdEndDebugUtilsLabelEXT", erased(&no_end)},
+                             {"vkCmdWriteTimestamp", erased(&no_timestamp)},
+                             {"vkCmdPipelineBarrier", erased(barrier)}};
+        return {host_.device(), std::move(lies)};
+    }
+};
 
 /// Buffers for all imported handles of a graph.
 struct Buffers {
@@ -159,88 +179,6 @@ TEST_F(GraphExecute, BufferThatWasNotSetIsNamed) {
     }
 }
 
-// Replacements for the driver's entry points by name; they carry no user data.
-HostDevice truth;
-std::map<std::string, PFN_vkVoidFunction> stand_ins;
-int calls_until_failure = 0;
-
-template <class Function>
-Function true_function(const char* name) {
-    const auto get = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
-        truth.get_instance_proc_addr(truth.instance, "vkGetDeviceProcAddr"));
-    return reinterpret_cast<Function>(get(truth.device, name));
-}
-
-PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice, const char* name) {
-    const auto found = stand_ins.find(name);
-    return found != stand_ins.end() ? found->second : true_function<PFN_vkVoidFunction>(name);
-}
-
-PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance, const char* name) {
-    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
-        return reinterpret_cast<PFN_vkVoidFunction>(&device_function);
-    }
-    const auto found = stand_ins.find(name);
-    return found != stand_ins.end() ? found->second : truth.get_instance_proc_addr(instance, name);
-}
-
-HostDevice with_stand_ins(const HostDevice& host,
-                          std::map<std::string, PFN_vkVoidFunction> functions) {
-    truth = host;
-    stand_ins = std::move(functions);
-    HostDevice changed = host;
-    changed.get_instance_proc_addr = &instance_function;
-    return changed;
-}
-
-VkResult VKAPI_CALL failing_allocate(VkDevice device, const VkMemoryAllocateInfo* info,
-                                     const VkAllocationCallbacks* callbacks,
-                                     VkDeviceMemory* memory) {
-    if (--calls_until_failure < 0) {
-        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    }
-    return true_function<PFN_vkAllocateMemory>("vkAllocateMemory")(device, info, callbacks, memory);
-}
-
-VkResult VKAPI_CALL failing_framebuffer(VkDevice device, const VkFramebufferCreateInfo* info,
-                                        const VkAllocationCallbacks* callbacks,
-                                        VkFramebuffer* framebuffer) {
-    if (--calls_until_failure < 0) {
-        return VK_ERROR_OUT_OF_HOST_MEMORY;
-    }
-    return true_function<PFN_vkCreateFramebuffer>("vkCreateFramebuffer")(device, info, callbacks,
-                                                                         framebuffer);
-}
-
-/// The fixture checks that nothing is leaked.
-TEST_F(GraphExecute, RunningOutOfMemoryOnTheWayIsSaidAndLeaksNothing) {
-    const TwoImages two;
-    const std::map<std::string, PFN_vkVoidFunction> failing = {
-        {"vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(&failing_allocate)},
-        {"vkCreateFramebuffer", reinterpret_cast<PFN_vkVoidFunction>(&failing_framebuffer)}};
-    for (const auto& entry : failing) {
-        const gpu::Device device(with_stand_ins(host_.device(), {entry}));
-        // Both images lie in one block of memory.
-        const bool is_memory = entry.first == "vkAllocateMemory";
-        for (int successes = 0; successes < (is_memory ? 1 : 2); ++successes) {
-            calls_until_failure = successes;
-            try {
-                const Executor executor(device, two.graph, two.baked());
-                FAIL() << "no Failure";
-            } catch (const StatusException& failure) {
-                EXPECT_EQ(failure.status().code(), StatusCode::out_of_memory);
-                EXPECT_NE(failure.status().message().find(entry.first), std::string::npos);
-            }
-        }
-    }
-}
-
-void VKAPI_CALL no_begin(VkCommandBuffer, const VkRenderPassBeginInfo*, VkSubpassContents) {}
-void VKAPI_CALL no_end(VkCommandBuffer) {}
-void VKAPI_CALL no_label(VkCommandBuffer, const VkDebugUtilsLabelEXT*) {}
-void VKAPI_CALL no_timestamp(VkCommandBuffer, VkPipelineStageFlagBits, VkQueryPool, std::uint32_t) {
-}
-
 std::uint32_t barrier_calls = 0;
 std::uint32_t barriers_recorded = 0;
 std::uint32_t memory_barriers_recorded = 0;
@@ -255,14 +193,8 @@ void VKAPI_CALL count_barriers(VkCommandBuffer, VkPipelineStageFlags, VkPipeline
 }
 
 TEST_F(GraphExecute, OneBarrierCallAPassAndNoAllocation) {
-    const gpu::Device device(with_stand_ins(
-        host_.device(),
-        {{"vkCmdBeginRenderPass", reinterpret_cast<PFN_vkVoidFunction>(&no_begin)},
-         {"vkCmdEndRenderPass", reinterpret_cast<PFN_vkVoidFunction>(&no_end)},
-         {"vkCmdBeginDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(&no_label)},
-         {"vkCmdEndDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(&no_end)},
-         {"vkCmdWriteTimestamp", reinterpret_cast<PFN_vkVoidFunction>(&no_timestamp)},
-         {"vkCmdPipelineBarrier", reinterpret_cast<PFN_vkVoidFunction>(&count_barriers)}}));
+    const test_support::FakeLoader loader = recording_by(&count_barriers);
+    const gpu::Device device(loader.host());
     const TwoImages two;
     Executor executor(device, two.graph, two.baked());
     const Buffers buffers = buffers_for(device, two.graph);
@@ -351,12 +283,8 @@ void expect_stated(const RecordedCall& first, const RecordedCall& last, const Im
 
 // What the caller states belongs to one execution: the next one has the declared uses again.
 TEST_F(GraphExecute, ExternalUsesTakeThePlaceOfTheDeclaredOnesForOneExecution) {
-    const gpu::Device device(with_stand_ins(
-        host_.device(),
-        {{"vkCmdBeginDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(&no_label)},
-         {"vkCmdEndDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(&no_end)},
-         {"vkCmdWriteTimestamp", reinterpret_cast<PFN_vkVoidFunction>(&no_timestamp)},
-         {"vkCmdPipelineBarrier", reinterpret_cast<PFN_vkVoidFunction>(&record_call)}}));
+    const test_support::FakeLoader loader = recording_by(&record_call);
+    const gpu::Device device(loader.host());
     Graph graph;
     const ExternalAccess image_access{Access::exported_image, Access::exported_image};
     const ExternalAccess buffer_access{Access::exported_buffer, Access::exported_buffer};

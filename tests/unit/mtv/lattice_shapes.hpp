@@ -59,7 +59,7 @@ inline std::vector<Shape> aligned_shapes() {
 }
 
 /// Vertices in random directions from the origin, on a lattice.
-inline Shape lattice_star(samples::Random& random) {
+inline Shape lattice_star(test::Random& random) {
     const std::uint32_t size = 3 + random.below(5);
     const std::int64_t most = random.below(2) == 0 ? 4 : 20;
     std::vector<Point> ring;
@@ -93,8 +93,8 @@ struct Frame {
     double angle = 0.0;
 };
 
-inline samples::Rings scaled(const Shape& shape, double scale) {
-    samples::Rings rings;
+inline test::Rings scaled(const Shape& shape, double scale) {
+    test::Rings rings;
     for (const std::vector<Point>& ring : shape) {
         Ring& scaled = rings.emplace_back();
         for (const Point& point : ring) {

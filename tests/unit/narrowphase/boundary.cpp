@@ -1,7 +1,7 @@
 #include <engine/narrowphase/boundary.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/unit/support/shape_samples.hpp>
+#include <tests/unit/support/placed_shapes.hpp>
 
 namespace nearfield::narrowphase {
 namespace {
@@ -10,22 +10,11 @@ using geometry::Polygon;
 using geometry::TransformedPolygon;
 using geometry::Vector;
 
-template <class Check>
-void for_each_placed_shape(const Check& check) {
-    samples::Random random(31);
-    for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
-        for (const Pose& pose : {Pose{}, Pose{{1e4, -3.0}, 0.7}}) {
-            SCOPED_TRACE(shape.name + " moved by " + std::to_string(pose.translation.x));
-            const Polygon polygon = samples::polygon(shape.rings);
-            const TransformedPolygon placed(polygon, pose);
-            check(placed, random);
-        }
-    }
-}
-
 TEST(ExactBoundary, NormalsLeadOut) {
     std::size_t checked = 0;
-    for_each_placed_shape([&](const TransformedPolygon& placed, samples::Random& random) {
+    test::Random random(31);
+    const auto check = [&](const simd::TransformedEdges& edges) {
+        const TransformedPolygon& placed = edges.placed;
         Boundary boundary;
         boundary.set(placed);
         std::vector<double> parameters;
@@ -55,13 +44,14 @@ TEST(ExactBoundary, NormalsLeadOut) {
                 ++checked;
             }
         }
-    });
+    };
+    samples::for_each_placed(samples::assorted_shapes(random), {{1e4, -3.0}, 0.7}, check);
     EXPECT_GT(checked, 1000U);
 }
 
 /// A place within rounding of an edge's end has the edge's normal, not its opposite.
 TEST(ExactBoundary, NormalsLeadOutAtTheEndsOfEdges) {
-    const Polygon polygon = samples::polygon({samples::rectangle(0.0, 0.0, 1.0, 1.0)});
+    const Polygon polygon = samples::polygon(test::rectangle({0.0, 0.0}, {1.0, 1.0}));
     for (int i = 0; i < 300; ++i) {
         const TransformedPolygon placed(polygon, {{0.25 * i, -3.0}, 0.02 * i});
         Boundary boundary;
@@ -81,7 +71,7 @@ TEST(ExactBoundary, NormalsLeadOutAtTheEndsOfEdges) {
 }
 
 TEST(ExactBoundary, UniqueUnlessTwoWallsAreAsNear) {
-    const Polygon polygon = samples::polygon({samples::rectangle(0.0, 0.0, 2.0, 10.0)});
+    const Polygon polygon = samples::polygon(test::rectangle({0.0, 0.0}, {2.0, 10.0}));
     const TransformedPolygon placed(polygon, {});
     Boundary boundary;
     boundary.set(placed);

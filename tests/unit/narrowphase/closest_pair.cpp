@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
-#include <tests/unit/support/shape_samples.hpp>
+#include <tests/unit/support/placed_shapes.hpp>
 
 #include <cmath>
 #include <limits>
@@ -15,6 +15,7 @@ namespace {
 using geometry::Polygon;
 using geometry::TransformedPolygon;
 using geometry::Vector;
+using samples::PlacedPair;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -31,24 +32,8 @@ double brute_force_squared_distance(const TransformedPolygon& a, const Transform
     return least;
 }
 
-/// Two transformed shapes, complete.
-struct PlacedPair {
-    simd::TransformedInstances instances;
-    std::uint32_t index_a;
-    std::uint32_t index_b;
-
-    PlacedPair(const Polygon& polygon_a, const Pose& pose_a, const Polygon& polygon_b,
-               const Pose& pose_b)
-        : index_a(instances.place(polygon_a, pose_a)), index_b(instances.place(polygon_b, pose_b)) {
-        instances.complete(index_a);
-        instances.complete(index_b);
-    }
-    [[nodiscard]] const simd::TransformedEdges& a() const { return instances[index_a]; }
-    [[nodiscard]] const simd::TransformedEdges& b() const { return instances[index_b]; }
-};
-
 TEST(ClosestOfSegments, NoSampleIsCloser) {
-    samples::Random random(8);
+    test::Random random(8);
     for (int round = 0; round < 2000; ++round) {
         const auto point = [&] {
             return Vector(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
@@ -73,7 +58,7 @@ TEST(ClosestOfSegments, NoSampleIsCloser) {
 }
 
 TEST(OverlapTest, ShapesThatTouchUpToRoundingMeet) {
-    const Polygon square = samples::polygon({samples::rectangle(-0.5, -0.5, 0.5, 0.5)});
+    const Polygon square = samples::polygon(test::rectangle({-0.5, -0.5}, {0.5, 0.5}));
     OverlapTest overlap_test;
     for (const double far : {0.0, 1e3, 1e6}) {
         const PlacedPair one(square, {{far, far}, 0.0}, square, {{far + 1.0, far}, 0.0});
@@ -135,15 +120,12 @@ void expect_equal(const ClosestPair& found, const ClosestPair& expected) {
 }
 
 TEST(ClosestPair, OfFewEdgesIsTheSameInAnyDirectionOnEveryInstructionSet) {
-    samples::Random random(92);
+    test::Random random(92);
     ClosestPairFinder finder;
     for (int i = 0; i < 400; ++i) {
-        const auto size = [&](double most) {
-            return static_cast<std::uint32_t>(random.between(3.0, most));
-        };
-        const Polygon a = samples::polygon({samples::star(random, size(33.0), 0.3, 1.0)});
+        const Polygon a = samples::polygon(test::star(random, random.whole(3, 32), 0.3));
         const double inner = random.between(0.1, 0.9);
-        const Polygon b = samples::polygon({samples::star(random, size(20.0), inner, 1.0)});
+        const Polygon b = samples::polygon(test::star(random, random.whole(3, 19), inner));
         const double away = i % 4 == 0 ? 3e7 : 1.0;
         const double turn = random.between(0.0, 6.0);
         const PlacedPair pair(a, {{away, -away}, turn}, b,

@@ -2,24 +2,23 @@
 
 #include <gtest/gtest.h>
 #include <tests/unit/support/awkward_shapes.hpp>
+#include <tests/unit/support/placed_shapes.hpp>
 #include <tests/unit/support/point_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 namespace nearfield::narrowphase {
 namespace {
 
-using geometry::Polygon;
 using geometry::TransformedPolygon;
 using geometry::Vector;
 using samples::Points;
 
 /// Scattered points, or points along lines at various spacings.
-Points any_points(const TransformedPolygon& placed, samples::Random& random) {
+Points any_points(const TransformedPolygon& placed, test::Random& random) {
     Points points;
     const std::uint32_t count = 1 + random.below(40);
     const bool along_a_line = random.below(3) > 0;
@@ -37,19 +36,23 @@ Points any_points(const TransformedPolygon& placed, samples::Random& random) {
 /// Calls `check(edges, points)` for points around all kinds of shapes, small and large.
 template <class Check>
 void for_each_list(const Check& check) {
-    samples::Random random(95);
-    for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
-        for (const Pose& pose : {Pose{}, Pose{{1e4, -3.0}, 0.7}}) {
-            SCOPED_TRACE(shape.name + " moved by " + std::to_string(pose.translation.x));
-            const Polygon polygon = samples::polygon(shape.rings);
-            simd::TransformedInstances instances;
-            const std::uint32_t index = instances.place(polygon, pose);
-            instances.complete(index);
-            for (int i = 0; i < 200; ++i) {
-                check(instances[index], any_points(instances[index].placed, random));
-            }
-        }
+    test::Random random(95);
+    samples::for_each_placed(samples::assorted_shapes(random), {{1e4, -3.0}, 0.7},
+                             [&](const simd::TransformedEdges& edges) {
+                                 for (int i = 0; i < 200; ++i) {
+                                     check(edges, any_points(edges.placed, random));
+                                 }
+                             });
+}
+
+/// The squared distances of all edges from a point.
+std::vector<double> squared_distances(const simd::TransformedEdges& edges, const Vector& point) {
+    std::vector<double> squared;
+    for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
+        squared.push_back(geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
+                              .squared_distance);
     }
+    return squared;
 }
 
 TEST(NearestPoints, AreThoseOfBruteForce) {
@@ -61,12 +64,8 @@ TEST(NearestPoints, AreThoseOfBruteForce) {
         const simd::NearestArrays& found = nearest.arrays();
         for (std::uint32_t i = 0; i < points.count; ++i) {
             const Vector point(points.x[i], points.y[i]);
-            double least = std::numeric_limits<double>::infinity();
-            for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
-                least = std::min(
-                    least, geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
-                               .squared_distance);
-            }
+            const std::vector<double> squared = squared_distances(edges, point);
+            const double least = *std::min_element(squared.begin(), squared.end());
             ASSERT_LT(found.edge[i], edges.count);
             EXPECT_NEAR(found.distance[i], std::sqrt(least), 1e-7 * edges.rounding + 1e-11);
             const geometry::NearestOnSegment on_edge = geometry::nearest_on_segment(
@@ -82,7 +81,7 @@ TEST(NearestPoints, AreThoseOfBruteForce) {
 
 /// Samples of two nearby edges out of many in turns, so that consecutive ones are far apart, and
 /// any other points.
-Points many_points(const simd::TransformedEdges& edges, samples::Random& random) {
+Points many_points(const simd::TransformedEdges& edges, test::Random& random) {
     Points points;
     for (int i = 0; i < 700; ++i) {
         const std::uint32_t edge = random.below(edges.count);
@@ -104,40 +103,28 @@ Points many_points(const simd::TransformedEdges& edges, samples::Random& random)
 TEST(NearestPoints, OfPointsAmongCrowdedEdgesAreThoseOfBruteForce) {
     constexpr double margin = 1e-3;
     NearestPoints nearest;
-    samples::Random random(96);
-    for (const samples::NamedRings& shape : samples::awkward_shapes(random)) {
-        for (const Pose& pose : {Pose{}, Pose{{1e6, -3e5}, 0.3}}) {
-            SCOPED_TRACE(shape.name + " moved by " + std::to_string(pose.translation.x));
-            const Polygon polygon = samples::polygon(shape.rings);
-            simd::TransformedInstances instances;
-            const std::uint32_t index = instances.place(polygon, pose);
-            instances.complete(index);
-            const simd::TransformedEdges& edges = instances[index];
-            const Points points = many_points(edges, random);
-            nearest.find(points.arrays(), edges, margin);
-            const simd::NearestArrays& found = nearest.arrays();
-            for (std::uint32_t i = 0; i < points.count; ++i) {
-                const Vector point(points.x[i], points.y[i]);
-                std::vector<double> squared;
-                for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
-                    squared.push_back(
-                        geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
-                            .squared_distance);
-                }
-                std::partial_sort(squared.begin(), squared.begin() + 3, squared.end());
-                const double allowed = 16.0 * edges.rounding;
-                EXPECT_NEAR(found.distance[i], std::sqrt(squared[0]), allowed) << i;
-                const double limit = std::sqrt(squared[0]) + margin;
-                for (const auto& [other, truth] : {std::pair(found.second_squared[i], squared[1]),
-                                                   std::pair(found.third_squared[i], squared[2])}) {
-                    EXPECT_GE(std::sqrt(other), std::sqrt(truth) - allowed) << i;
-                    if (std::sqrt(truth) <= limit) {
-                        EXPECT_NEAR(std::sqrt(other), std::sqrt(truth), allowed) << i;
-                    }
+    test::Random random(96);
+    const auto check = [&](const simd::TransformedEdges& edges) {
+        const Points points = many_points(edges, random);
+        nearest.find(points.arrays(), edges, margin);
+        const simd::NearestArrays& found = nearest.arrays();
+        for (std::uint32_t i = 0; i < points.count; ++i) {
+            const Vector point(points.x[i], points.y[i]);
+            std::vector<double> squared = squared_distances(edges, point);
+            std::partial_sort(squared.begin(), squared.begin() + 3, squared.end());
+            const double allowed = 16.0 * edges.rounding;
+            EXPECT_NEAR(found.distance[i], std::sqrt(squared[0]), allowed) << i;
+            const double limit = std::sqrt(squared[0]) + margin;
+            for (const auto& [other, truth] : {std::pair(found.second_squared[i], squared[1]),
+                                               std::pair(found.third_squared[i], squared[2])}) {
+                EXPECT_GE(std::sqrt(other), std::sqrt(truth) - allowed) << i;
+                if (std::sqrt(truth) <= limit) {
+                    EXPECT_NEAR(std::sqrt(other), std::sqrt(truth), allowed) << i;
                 }
             }
         }
-    }
+    };
+    samples::for_each_placed(samples::awkward_shapes(random), {{1e6, -3e5}, 0.3}, check);
 }
 
 TEST(NearestPoints, AreUniqueWhereTheBoundarySaysSo) {

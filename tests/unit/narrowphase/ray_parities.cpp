@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/unit/support/awkward_shapes.hpp>
+#include <tests/unit/support/placed_shapes.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -13,23 +14,14 @@
 namespace nearfield::narrowphase {
 namespace {
 
-using geometry::Polygon;
 using geometry::Vector;
 
-/// Calls `check(edges, random)` for awkward shapes, as they are and far from the origin.
+/// As they are and far from the origin; calls `check(edges, random)`.
 template <class Check>
 void for_each_awkward_shape(const Check& check) {
-    samples::Random random(211);
-    for (const samples::NamedRings& shape : samples::awkward_shapes(random)) {
-        for (const Pose& pose : {Pose{}, Pose{{1e6, -3e5}, 0.3}}) {
-            SCOPED_TRACE(shape.name + " moved by " + std::to_string(pose.translation.x));
-            const Polygon polygon = samples::polygon(shape.rings);
-            simd::TransformedInstances instances;
-            const std::uint32_t index = instances.place(polygon, pose);
-            instances.complete(index);
-            check(instances[index], random);
-        }
-    }
+    test::Random random(211);
+    samples::for_each_placed(samples::awkward_shapes(random), {{1e6, -3e5}, 0.3},
+                             [&](const simd::TransformedEdges& edges) { check(edges, random); });
 }
 
 /// Whether a point is inside by the even-odd rule, edge by edge, and how far it is from the
@@ -56,7 +48,7 @@ Truth truth_of(const simd::TransformedEdges& edges, const Vector& point) {
 }
 
 /// Anywhere about the shape, level with vertices or above them, and beside edges.
-Vector any_point(const simd::TransformedEdges& edges, samples::Random& random) {
+Vector any_point(const simd::TransformedEdges& edges, test::Random& random) {
     const auto between = [&](double low, double high) {
         return random.between(low - 0.1 * (high - low), high + 0.1 * (high - low));
     };
@@ -81,8 +73,7 @@ Vector any_point(const simd::TransformedEdges& edges, samples::Random& random) {
 }
 
 /// Asks for many points, then answers; returns how many were not known at once.
-int check_points(const simd::TransformedEdges& edges, samples::Random& random,
-                 RayParities& parities) {
+int check_points(const simd::TransformedEdges& edges, test::Random& random, RayParities& parities) {
     const simd::AabbTree tree = edges.tree();
     parities.begin(tree);
     std::vector<Vector> points;
@@ -107,7 +98,7 @@ int check_points(const simd::TransformedEdges& edges, samples::Random& random,
 TEST(RayParities, OfPointsAreThoseOfEdgeByEdge) {
     RayParities parities;
     int late = 0;
-    for_each_awkward_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
+    for_each_awkward_shape([&](const simd::TransformedEdges& edges, test::Random& random) {
         late += check_points(edges, random, parities);
     });
     EXPECT_GT(late, 10000);
@@ -117,7 +108,7 @@ TEST(RayParities, OfPointsAreThoseOfEdgeByEdge) {
 TEST(RayParities, OfPlacesOnEdgesAreThoseOfOneRay) {
     RayParities parities;
     int late = 0;
-    for_each_awkward_shape([&](const simd::TransformedEdges& edges, samples::Random& random) {
+    for_each_awkward_shape([&](const simd::TransformedEdges& edges, test::Random& random) {
         const simd::AabbTree tree = edges.tree();
         parities.begin(tree);
         std::vector<RayParities::Ticket> tickets;

@@ -15,14 +15,14 @@ using geometry::Polygon;
 /// them are hardly larger than their contents require.
 TEST(TransformedEdges, HaveSmallBoxesWhateverTheOrderOfRings) {
     constexpr std::uint32_t side = 40;
-    samples::Rings squares;
+    test::Rings squares;
     for (std::uint32_t i = 0; i < side * side; ++i) {
         const std::uint32_t row = i / side;
         const double x = i % side;
         const double y = row;
         squares.push_back({{x, y}, {x + 0.5, y}, {x + 0.5, y + 0.5}, {x, y + 0.5}});
     }
-    samples::Random random(3);
+    test::Random random(3);
     for (std::uint32_t i = side * side - 1; i > 0; --i) {
         std::swap(squares[i], squares[random.below(i + 1)]);
     }
@@ -43,12 +43,10 @@ TEST(TransformedEdges, HaveSmallBoxesWhateverTheOrderOfRings) {
 /// Any sequence of batches in which shapes, poses or neither change: what is kept is what would be
 /// made, and what is kept is bounded.
 TEST(TransformedInstances, AreTheSameHoweverManyAreKept) {
-    samples::Random random(81);
+    test::Random random(81);
     std::vector<Polygon> polygons(6);
     const auto change = [&](Polygon& polygon) {
-        const std::uint32_t size = 3 + random.below(298);
-        const std::vector<Ring> rings{samples::star(random, size, 0.4, 1.0)};
-        ASSERT_TRUE(polygon.assign(rings).ok());
+        ASSERT_TRUE(polygon.assign(test::star(random, random.whole(3, 300), 0.4)).ok());
     };
     std::for_each(polygons.begin(), polygons.end(), change);
     struct Placed {
@@ -107,8 +105,8 @@ TEST(TransformedInstances, AreTheSameHoweverManyAreKept) {
 }
 
 TEST(TransformedInstances, AreKeptWhileHalfOfThemAreUsed) {
-    samples::Random random(82);
-    const Polygon polygon = samples::polygon({samples::star(random, 12, 0.3, 1.0)});
+    test::Random random(82);
+    const Polygon polygon = samples::polygon(test::star(random, 12, 0.3));
     simd::TransformedInstances instances;
     const auto place = [&](std::uint32_t first, std::uint32_t count) {
         instances.begin_batch();

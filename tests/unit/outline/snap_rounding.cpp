@@ -1,11 +1,8 @@
-#include <engine/base/status_exception.hpp>
 #include <engine/outline/snap_rounding.hpp>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 namespace nearfield::outline {
@@ -92,51 +89,11 @@ TEST(SnapRounding, CellsHoldTheirLowerAndLeftSides) {
     EXPECT_EQ(cell_of({0x1p49 + 0.5, -0x1p49 - 0.5}), (Cell{(1LL << 49) + 1, -(1LL << 49)}));
 }
 
-/// Edges of the result share ends, coincide, or have nothing in common.
-TEST(SnapRounding, EdgesMeetAtEndsAlone) {
-    std::mt19937 random(3);
-    for (int round = 0; round < 300; ++round) {
-        std::uniform_real_distribution<double> place(-12.0, 12.0);
-        Ring ring(12);
-        for (Vector2& vertex : ring) {
-            vertex = {place(random), place(random)};
-            if (round % 3 == 0) {
-                vertex = {0.25 * std::round(4 * vertex.x), 0.25 * std::round(4 * vertex.y)};
-            }
-        }
-        const SnapRounding rounding = snap_round({&ring, 1}, 1000);
-        ASSERT_TRUE(std::is_sorted(rounding.cells.begin(), rounding.cells.end()));
-        for (const SnappedEdge& edge : rounding.edges) {
-            const Cell& a = rounding.cells[edge.from];
-            const Cell& b = rounding.cells[edge.to];
-            ASSERT_NE(a, b);
-            for (const Cell& cell : rounding.cells) {
-                const bool between = std::min(a, b) < cell && cell < std::max(a, b);
-                ASSERT_FALSE(between && orientation(a, b, cell) == 0)
-                    << "an edge passes the centre of a hot cell";
-            }
-            for (const SnappedEdge& other : rounding.edges) {
-                const Cell& c = rounding.cells[other.from];
-                const Cell& d = rounding.cells[other.to];
-                ASSERT_FALSE(orientation(a, b, c) * orientation(a, b, d) < 0 &&
-                             orientation(c, d, a) * orientation(c, d, b) < 0)
-                    << "edges cross";
-            }
-        }
-    }
-}
-
 TEST(SnapRounding, ACrossingBetweenCellsIsInTheUpperRightOne) {
     // Two triangles without area, whose long sides cross where four cells meet.
     const std::vector<Ring> rings{{{-2, -2}, {3, 3}, {-2, -2}}, {{-2, 3}, {3, -2}, {-2, 3}}};
     EXPECT_EQ(snap_round(rings, 100).cells,
               (std::vector<Cell>{{-2, -2}, {-2, 3}, {1, 1}, {3, -2}, {3, 3}}));
-}
-
-TEST(SnapRounding, CrossingsCount) {
-    const std::vector<Ring> rings{{{0, 0}, {100, 100}, {100, 0}, {0, 100}}};
-    EXPECT_EQ(snap_round(rings, 5).cells.size(), 5U);
-    EXPECT_THROW(static_cast<void>(snap_round(rings, 4)), StatusException);
 }
 
 }  // namespace

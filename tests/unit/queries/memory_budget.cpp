@@ -55,35 +55,5 @@ TEST(MemoryBudget, PointsOfAQueryAreCountedCloselyOnlyIfTheyAreMany) {
     }
 }
 
-TEST(MemoryBudget, WhoNeedsTooMuchIsToldTheToleranceThatFits) {
-    const QueryLimits limits = limits_with(1U << 28U);
-    const double room = 0.75 * std::ldexp(1.0, 28);
-    for (const double growth : {1.0, 2.0}) {
-        MemoryBudget budget(limits);
-        QueryMemory query(budget, 7, 0.5);
-        try {
-            query.require(room * 16.0, growth);
-            ADD_FAILURE() << "nothing thrown";
-        } catch (const StatusException& failure) {
-            const std::string message = failure.status().message();
-            const auto at = message.find("about ");
-            ASSERT_NE(at, std::string::npos) << message;
-            const double told = std::stod(message.substr(at + 6));
-            EXPECT_GT(told, 0.9 * 0.5 * std::pow(16.0, 1.0 / growth));
-            EXPECT_LT(told, 1.1 * 0.5 * std::pow(16.0, 1.0 / growth));
-            EXPECT_EQ(message.find("query 7 with tolerance 0.5"), 0U) << message;
-        }
-    }
-    // Several queries that fit one by one.
-    MemoryBudget budget(limits);
-    QueryMemory(budget, 0, 0.5).require(0.9 * room, 2.0);
-    try {
-        QueryMemory(budget, 1, 0.5).require(0.9 * room, 2.0);
-        ADD_FAILURE() << "nothing thrown";
-    } catch (const StatusException& failure) {
-        EXPECT_NE(failure.status().message().find("the batch is too large"), std::string::npos);
-    }
-}
-
 }  // namespace
 }  // namespace nearfield::queries

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
+#include <tests/unit/support/tile_cases.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,42 +22,9 @@ using geometry::Polygon;
 using geometry::TransformedPolygon;
 using geometry::Vector;
 
-constexpr std::uint32_t width = 40;
-constexpr std::uint32_t height = 24;
-
-/// A shape over, around or beside a tile of 40 x 24 cells of side 1 with its low corner at the
-/// origin.
-struct TileCase {
-    std::string name;
-    Polygon polygon;
-    Pose pose;
-    SimplifiedShapes shapes;
-    std::optional<TileBoundary> placed;
-
-    TileCase(const test::NamedRings& shape, std::uint64_t seed, double deviation) {
-        test::Random random(seed);
-        const double size = random.scale(3.0, 3e5);
-        name = shape.name + ", seed " + std::to_string(seed);
-        EXPECT_TRUE(polygon.assign(test::scaled_and_moved(shape.rings, size, {})).ok()) << name;
-        pose = {{random.between(-0.7, 0.7) * size + 0.5 * width,
-                 random.between(-0.7, 0.7) * size + 0.5 * height},
-                random.between(0.0, 7.0)};
-        placed.emplace(shapes.get(polygon, deviation, 64.0),
-                       ToCells(TransformedPolygon(polygon, pose), Vector::Zero(), 1.0));
-    }
-
-    [[nodiscard]] const TileBoundary& boundary() const { return *placed; }
-};
-
-std::vector<std::unique_ptr<TileCase>> cases(double deviation) {
-    std::vector<std::unique_ptr<TileCase>> all;
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-        for (const test::NamedRings& shape : test::every_family(seed)) {
-            all.push_back(std::make_unique<TileCase>(shape, 1000 * seed + all.size(), deviation));
-        }
-    }
-    return all;
-}
+using test::cases;
+using test::height;
+using test::width;
 
 bool crosses(const Vector& p, const Vector& a, const Vector& b) {
     return (a.y() > p.y()) != (b.y() > p.y()) &&

@@ -49,7 +49,7 @@ public:
           question_(any_question(random_)),
           world_(question_, {}),
           recorded_(world_),
-          parts_(question_.kind(), question_.on_device) {
+          parts_(parts_of(question_)) {
         resize(400);
         // What parts have room for at least, before anything was counted.
         const PairBytes least = world_.bytes({64, 64, 64, 64, 64, 64});
@@ -77,7 +77,7 @@ public:
             EXPECT_EQ(error.status().code(), StatusCode::too_large);
             EXPECT_TRUE(is_too_large(world_) || is_too_large(recorded_))
                 << error.status().message();
-            parts_ = PairParts(question_.kind(), question_.on_device);  // as a table starts anew
+            parts_ = parts_of(question_);  // as a table starts anew
             has_results_ = false;
         }
     }
@@ -104,7 +104,7 @@ private:
             if (is_within(own, parts_[i].capacities)) {
                 parts_.note(i, own);
             } else {
-                parts_.grow(i, own);
+                parts_.grow(i, own, 1.0);
                 has_results_ = false;
             }
         }

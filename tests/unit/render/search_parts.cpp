@@ -47,7 +47,7 @@ TEST(PairParts, ThatStayOnTheDeviceAreNotJoinedWithoutMemoryForThat) {
     const PairCounts all = world.counts(0, 1000);
     const PairBytes bytes = world.bytes(all);
     const PairBytes resident = world.resident_bytes(all);
-    PairParts parts(question.kind(), question.on_device);
+    PairParts parts = parts_of(question);
     const auto limits_of = [&](double share) {
         const double more = 1.125 * static_cast<double>(bytes.found() + resident.found());
         return PairLimits{everything, static_cast<std::uint64_t>(
@@ -69,7 +69,7 @@ TEST(PairParts, ThatStayOnTheDeviceAreNotJoinedWithoutMemoryForThat) {
 TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
     const Searched world = even_world(1000, 40);
     const PairCounts all = world.counts(0, 1000);
-    PairParts parts(penetrations.kind(), penetrations.on_device);
+    PairParts parts = parts_of(penetrations);
     world.search(parts, no_limits);
     const PairBytes bytes = world.bytes(all);
     const std::uint64_t memory = bytes.scratch + bytes.found();
@@ -79,7 +79,7 @@ TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
         << "an eighth is to spare";
 
     Searched one = even_world(1, 4000);
-    PairParts of_one(penetrations.kind(), penetrations.on_device);
+    PairParts of_one = parts_of(penetrations);
     one.search(of_one, no_limits);
     const std::uint64_t exactly = one.bytes(one.counts(0, 1)).largest();
     EXPECT_EQ(one.search(of_one, {exactly, everything}), 1);
@@ -92,10 +92,10 @@ TEST(PairParts, OfFewerInstancesThanWereCountedAreNotRefused) {
     const Searched world = even_world(1000, 400);
     const Searched few = even_world(2, 400);
     const PairLimits limits{std::uint64_t{1} << 22U, everything};
-    PairParts parts(penetrations.kind(), penetrations.on_device);
+    PairParts parts = parts_of(penetrations);
     static_cast<void>(parts.set_instances(1000));
     parts.fit(limits);
-    parts.grow(0, world.counts(0, 1000));
+    parts.grow(0, world.counts(0, 1000), 1.0);
     few.search(parts, limits);
     EXPECT_EQ(parts.count(), 1U);
 }
@@ -105,7 +105,7 @@ TEST(PairParts, AreNotRefusedForWhatWasEstimated) {
     const Searched world(penetrations, {{0, 0, 0, 45000, 0, 0}, {200000, 0, 0, 10, 0, 0}});
     const std::uint64_t largest = std::max(world.bytes(world.counts(0, 1)).largest(),
                                            world.bytes(world.counts(1, 2)).largest());
-    PairParts parts(penetrations.kind(), penetrations.on_device);
+    PairParts parts = parts_of(penetrations);
     world.search(parts, {largest, everything});
     EXPECT_EQ(parts.count(), 2U);
 }
@@ -116,7 +116,7 @@ TEST(PairParts, AreNotRefusedForEstimatesOfAllTogether) {
     const PairBytes first = world.bytes(world.counts(0, 1));
     const PairBytes second = world.bytes(world.counts(1, 2));
     const std::uint64_t scratch = std::max(first.scratch, second.scratch);
-    PairParts parts(penetrations.kind(), penetrations.on_device);
+    PairParts parts = parts_of(penetrations);
     world.search(parts, {everything, scratch + first.found() + second.found()});
     EXPECT_EQ(parts.count(), 2U);
 }
@@ -125,7 +125,7 @@ TEST(PairParts, SayWhatIsTooLarge) {
     const Searched world = even_world(3, 4000);
     const PairBytes bytes = world.bytes(counts_of(4000));
     const std::uint64_t reach = bytes.largest() - 1;
-    PairParts parts(penetrations.kind(), penetrations.on_device);
+    PairParts parts = parts_of(penetrations);
     EXPECT_EQ(refusal(world, parts, {reach, everything}),
               "the pairs of one instance need " + std::to_string(reach + 1) +
                   " bytes on the device in one buffer, of which shaders reach " +
@@ -136,7 +136,7 @@ TEST(PairParts, SayThatAllOfThemAreTooLarge) {
     const Searched world = even_world(1, 4000);
     const PairBytes bytes = world.bytes(world.counts(0, 1));
     const std::uint64_t all = bytes.scratch + bytes.found();
-    PairParts parts(penetrations.kind(), penetrations.on_device);
+    PairParts parts = parts_of(penetrations);
     world.search(parts, no_limits);
     EXPECT_EQ(refusal(world, parts, {everything, all}), "");
     EXPECT_EQ(refusal(world, parts, {everything, all - 1}),
@@ -149,7 +149,7 @@ TEST(PairParts, SayWhatThatStaysIsTooLarge) {
     question.on_device = true;
     const Searched world = even_world(1000, 40, question);
     const std::uint64_t records = world.resident_bytes(world.counts(0, 1000)).records;
-    PairParts parts(question.kind(), question.on_device);
+    PairParts parts = parts_of(question);
     world.search(parts, no_limits);
     const std::uint64_t reach = records - 1;
     EXPECT_EQ(refusal(world, parts, {reach, everything}),
@@ -167,7 +167,8 @@ PairCounts given(std::uint32_t pairs) {
 }
 
 TEST(PairParts, OfGivenPairsHaveTheRoomThatIsAskedFor) {
-    PairParts parts(device_input::given_pairs, false);
+    PairParts parts(device_input::given_pairs, first_capacities(device_input::given_pairs, {}),
+                    false);
     const PairCounts room = counts_of(20000);
     EXPECT_TRUE(parts.set_given(given(20000), room));
     parts.fit(no_limits);
@@ -181,7 +182,8 @@ TEST(PairParts, OfGivenPairsHaveTheRoomThatIsAskedFor) {
 }
 
 TEST(PairParts, OfGivenPairsAreDividedAndBecomeOneAgain) {
-    PairParts parts(device_input::given_pairs, false);
+    PairParts parts(device_input::given_pairs, first_capacities(device_input::given_pairs, {}),
+                    false);
     const std::uint32_t pairs = 20000;
     shaders::SearchPush push{};
     const std::uint64_t all =
@@ -196,7 +198,7 @@ TEST(PairParts, OfGivenPairsAreDividedAndBecomeOneAgain) {
             if (is_within(own, parts[i].capacities)) {
                 parts.note(i, own);
             } else {
-                parts.grow(i, own);
+                parts.grow(i, own, 1.0);
                 had_room = false;
             }
         }

@@ -14,12 +14,10 @@
 
 namespace nearfield::render {
 
-inline PairCounts sum(const PairCounts& a, const PairCounts& b) {
-    PairCounts both{};
-    for (std::size_t i = 0; i < both.size(); ++i) {
-        both[i] = a[i] + b[i];
-    }
-    return both;
+/// Parts that nothing is known of.
+inline PairParts parts_of(const device_input::PairQuestion& question) {
+    const device_input::PairSearchKind kind = question.kind();
+    return {kind, first_capacities(kind, {}), question.on_device};
 }
 
 inline bool is_within(const PairCounts& counts, const PairCounts& most) {
@@ -98,7 +96,7 @@ public:
                 if (is_within(own, parts[i].capacities)) {
                     parts.note(i, own);
                 } else {
-                    parts.grow(i, own);
+                    parts.grow(i, own, 1.0);
                     had_room = false;
                 }
             }

@@ -40,8 +40,8 @@ bool are_odd_one_by_one(const TransformedEdges& edges, const Vector& point, int 
 
 /// Rings with integer coordinates and arbitrary crossings, some far apart and some longer than
 /// others: rays pass through vertices and along edges, and no number is rounded.
-samples::Rings rings_on_a_grid(samples::Random& random, std::uint32_t count, std::uint32_t most) {
-    samples::Rings rings;
+test::Rings rings_on_a_grid(test::Random& random, std::uint32_t count, std::uint32_t most) {
+    test::Rings rings;
     while (rings.size() < count) {
         const double x = random.below(40);
         const double y = random.below(40);
@@ -59,7 +59,7 @@ samples::Rings rings_on_a_grid(samples::Random& random, std::uint32_t count, std
 
 template <class Check>
 void for_each_grid_shape(const Check& check) {
-    samples::Random random(19);
+    test::Random random(19);
     for (const std::uint32_t count : {1U, 2U, 3U, 7U, 40U, 300U}) {
         for (const std::uint32_t most : {1U, 9U, 100U}) {
             SCOPED_TRACE(std::to_string(count) + " rings of at most " + std::to_string(most + 2));
@@ -79,7 +79,7 @@ int across(const Vector& direction) {
 
 TEST(CrossingKernels, CountFromAPlaceOnAnEdgeAllButThoseAlongIt) {
     int more_left_out = 0;
-    for_each_grid_shape([&](const TransformedEdges& edges, samples::Random& random) {
+    for_each_grid_shape([&](const TransformedEdges& edges, test::Random& random) {
         for (int i = 0; i < 400; ++i) {
             const std::uint32_t edge = random.below(edges.count);
             const Vector direction = edges.end(edge) - edges.start(edge);

@@ -25,7 +25,7 @@ struct Chains {
     Numbers point_x = Numbers(padded(count));
     Numbers point_y = Numbers(padded(count));
 
-    explicit Chains(samples::Random& random) {
+    explicit Chains(test::Random& random) {
         x.fill(Numbers(padded(count)));
         y.fill(Numbers(padded(count)));
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -75,7 +75,7 @@ void expect_nearest(const Chains& chains, bool with_neighbours) {
 }
 
 TEST(NeighbourKernels, SayWhatOneByOneSaysOnEveryInstructionSet) {
-    samples::Random random(7);
+    test::Random random(7);
     const Chains chains(random);
     for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
         const std::int64_t target = left & ~(left - 1);

@@ -13,8 +13,8 @@ using geometry::Vector;
 /// A square with a hole that far from the origin is smaller than the rounding of its vertices.
 TEST(BoundaryNormal, OfARingThatIsOnePointInTheWorldIsAUnitVector) {
     const Polygon polygon =
-        samples::polygon({samples::rectangle(-3e-4, -3e-4, 3e-4, 3e-4),
-                          samples::rectangle(1e-4, 1e-4, 1e-4 + 1e-12, 1e-4 + 2e-12)});
+        samples::polygon({test::rectangle({-3e-4, -3e-4}, {3e-4, 3e-4}).front(),
+                          test::rectangle({1e-4, 1e-4}, {1e-4 + 1e-12, 1e-4 + 2e-12}).front()});
     const TransformedPolygon placed(polygon, {{-974890.0, -974896.0}, 0.0});
     for (std::uint32_t i = 5; i < 8; ++i) {
         ASSERT_EQ(placed.vertex(4), placed.vertex(i));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tests/unit/support/awkward_shapes.hpp>
 #include <tests/unit/support/boundary_samples.hpp>
+#include <tests/unit/support/placed_shapes.hpp>
 
 namespace nearfield {
 namespace {
@@ -38,22 +39,18 @@ std::vector<Vector> off_boundary(const std::vector<Vector>& points,
 }
 
 /// Compares the samples of each in the other with brute force; returns how many are inside.
-std::size_t check_each_in_other(const samples::NamedRings& one, const Pose& pose_one,
-                                const samples::NamedRings& other, const Pose& pose_other,
+std::size_t check_each_in_other(const test::NamedRings& one, const Pose& pose_one,
+                                const test::NamedRings& other, const Pose& pose_other,
                                 double spacing, solvers::InsideSamples& finder) {
     const Polygon a = samples::polygon(one.rings);
     const Polygon b = samples::polygon(other.rings);
-    simd::TransformedInstances instances;
-    const std::uint32_t index_a = instances.place(a, pose_one);
-    const std::uint32_t index_b = instances.place(b, pose_other);
-    instances.complete(index_a);
-    instances.complete(index_b);
+    const samples::PlacedPair pair(a, pose_one, b, pose_other);
     simd::PointList found;
     std::size_t inside = 0;
     for (const bool reversed : {false, true}) {
         SCOPED_TRACE(one.name + ", " + other.name + ", " + std::to_string(spacing));
-        const simd::TransformedEdges& of = instances[reversed ? index_b : index_a];
-        const simd::TransformedEdges& in = instances[reversed ? index_a : index_b];
+        const simd::TransformedEdges& of = reversed ? pair.b() : pair.a();
+        const simd::TransformedEdges& in = reversed ? pair.a() : pair.b();
         std::vector<Vector> points;
         const auto take = [&] {
             for (std::uint32_t i = 0; i < found.size(); ++i) {
@@ -69,12 +66,12 @@ std::size_t check_each_in_other(const samples::NamedRings& one, const Pose& pose
 }
 
 TEST(InsideSamples, AreAllSamplesThatLieInside) {
-    samples::Random random(97);
-    const std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
+    test::Random random(97);
+    const std::vector<test::NamedRings> shapes = samples::assorted_shapes(random);
     solvers::InsideSamples finder;
     std::size_t inside = 0;
-    for (const samples::NamedRings& one : shapes) {
-        for (const samples::NamedRings& other : shapes) {
+    for (const test::NamedRings& one : shapes) {
+        for (const test::NamedRings& other : shapes) {
             const Pose pose{{random.between(-1.0, 1.0), random.between(-1.0, 1.0)}, 0.4};
             const Pose of_other = random.below(4) == 0 ? pose : Pose{};
             for (const double spacing : {0.3, 0.01}) {
@@ -87,8 +84,8 @@ TEST(InsideSamples, AreAllSamplesThatLieInside) {
 
 /// The boxes of so many edges meet that pairs are not listed.
 TEST(InsideSamples, OfCrowdedShapesAreAllOfThemToo) {
-    samples::Random random(98);
-    const std::vector<samples::NamedRings> shapes = samples::awkward_shapes(random);
+    test::Random random(98);
+    const std::vector<test::NamedRings> shapes = samples::awkward_shapes(random);
     solvers::InsideSamples finder;
     std::size_t inside = 0;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -100,18 +97,14 @@ TEST(InsideSamples, OfCrowdedShapesAreAllOfThemToo) {
 }
 
 TEST(InsideSamples, OfManyComeInListsOfBoundedLength) {
-    samples::Random random(5);
+    test::Random random(5);
     solvers::InsideSamples finder;
     simd::PointList found;
-    for (const std::uint32_t vertices : {12U, 400U}) {
+    for (const int vertices : {12, 400}) {
         SCOPED_TRACE(vertices);
-        const Polygon a = samples::polygon({samples::star(random, vertices, 0.3, 1.0)});
-        const Polygon b = samples::polygon({samples::star(random, vertices, 0.3, 1.0)});
-        simd::TransformedInstances instances;
-        const std::uint32_t index_a = instances.place(a, {{0.2, 0.1}, 0.4});
-        const std::uint32_t index_b = instances.place(b, {});
-        instances.complete(index_a);
-        instances.complete(index_b);
+        const Polygon a = samples::polygon(test::star(random, vertices, 0.3));
+        const Polygon b = samples::polygon(test::star(random, vertices, 0.3));
+        const samples::PlacedPair pair(a, {{0.2, 0.1}, 0.4}, b, {});
         const double spacing = 1e-5 * a.length_along_axes() / 5.0;
         std::vector<Vector> points;
         std::size_t lists = 0;
@@ -122,14 +115,13 @@ TEST(InsideSamples, OfManyComeInListsOfBoundedLength) {
             }
             ++lists;
         };
-        finder.find(instances[index_a], instances[index_b], false, spacing, found, take);
+        finder.find(pair.a(), pair.b(), false, spacing, found, take);
         take();
         EXPECT_GE(lists, 2U);
-        EXPECT_GE(finder.max_samples(instances[index_a], instances[index_b], spacing),
+        EXPECT_GE(finder.max_samples(pair.a(), pair.b(), spacing),
                   static_cast<double>(points.size()));
-        EXPECT_EQ(off_boundary(points, instances[index_b]),
-                  off_boundary(samples_inside(instances[index_a], instances[index_b], spacing),
-                               instances[index_b]));
+        EXPECT_EQ(off_boundary(points, pair.b()),
+                  off_boundary(samples_inside(pair.a(), pair.b(), spacing), pair.b()));
     }
 }
 

@@ -28,7 +28,7 @@ TransformedContact contact_at(const Vector& point, double angle,
 }
 
 Polygon long_bar() {
-    return samples::polygon({samples::rectangle(0.0, 0.0, 100.0, 1.0)});
+    return samples::polygon(test::rectangle({0.0, 0.0}, {100.0, 1.0}));
 }
 
 /// Contacts along the lower edge of the bar, with normals upwards.
@@ -148,7 +148,7 @@ TEST(Manifold, TheExtremeIsTheDeepestOrTheClosest) {
 
 TEST(Manifold, ContactsOfBJoinTheClusterTheyFaceOrMakeTheirOwn) {
     const Polygon a = long_bar();
-    const Polygon b = samples::polygon({samples::rectangle(0.0, -2.0, 100.0, -1.0)});
+    const Polygon b = samples::polygon(test::rectangle({0.0, -2.0}, {100.0, -1.0}));
     const std::vector<TransformedContact> of_a = along_the_bar(3.0, 7.0);
     const auto of_b_at = [](double x, double distance) {
         TransformedContact contact =

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/unit/support/boundary_samples.hpp>
-#include <tests/unit/support/shape_samples.hpp>
+#include <tests/unit/support/placed_shapes.hpp>
 
 #include <cmath>
 
@@ -56,20 +56,16 @@ Counts check(solvers::NearSamples& finder, const simd::TransformedEdges& a,
 /// Calls `use(A, B)` for all pairs of assorted shapes, complete, at random poses.
 template <class Use>
 void for_each_pair(std::uint32_t seed, const Use& use) {
-    samples::Random random(seed);
-    const std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
-    for (const samples::NamedRings& one : shapes) {
-        for (const samples::NamedRings& other : shapes) {
+    test::Random random(seed);
+    const std::vector<test::NamedRings> shapes = samples::assorted_shapes(random);
+    for (const test::NamedRings& one : shapes) {
+        for (const test::NamedRings& other : shapes) {
             SCOPED_TRACE(one.name + ", " + other.name);
             const Polygon a = samples::polygon(one.rings);
             const Polygon b = samples::polygon(other.rings);
             const Pose pose{{random.between(-2.0, 2.0), random.between(-2.0, 2.0)}, 0.4};
-            simd::TransformedInstances instances;
-            const std::uint32_t index_a = instances.place(a, pose);
-            const std::uint32_t index_b = instances.place(b, random.below(4) == 0 ? pose : Pose{});
-            instances.complete(index_a);
-            instances.complete(index_b);
-            use(instances[index_a], instances[index_b]);
+            const samples::PlacedPair pair(a, pose, b, random.below(4) == 0 ? pose : Pose{});
+            use(pair.a(), pair.b());
         }
     }
 }
@@ -102,31 +98,26 @@ TEST(NearSamples, AreHardlyAnyOthers) {
 
 TEST(NearSamples, OfShapesFarFromTheOriginAreAllThatAreNear) {
     // Parallel edges exactly at the requested distance.
-    const Polygon a = samples::polygon({samples::rectangle(0.0, 0.0, 1.0, 1.0)});
+    const Polygon a = samples::polygon(test::rectangle({0.0, 0.0}, {1.0, 1.0}));
     solvers::NearSamples finder;
     for (const double angle : {0.0, 0.7, 2.0}) {
-        simd::TransformedInstances instances;
         const Pose pose{{1e6, -3e6}, angle};
-        const std::uint32_t index_a = instances.place(a, pose);
-        const Polygon b = samples::polygon({samples::rectangle(1.25, 0.0, 2.0, 1.0)});
-        const std::uint32_t index_b = instances.place(b, pose);
+        const Polygon b = samples::polygon(test::rectangle({1.25, 0.0}, {2.0, 1.0}));
+        const samples::PlacedPair pair(a, pose, b, pose);
         std::size_t count = 0;
-        finder.find(instances[index_a], instances[index_b], 0.25, 0.01,
-                    [&] { count += finder.points().size(); });
+        finder.find(pair.a(), pair.b(), 0.25, 0.01, [&] { count += finder.points().size(); });
         EXPECT_GE(count, 101U);
     }
 }
 
 TEST(NearSamples, OfManyComeInListsOfBoundedLength) {
-    const Polygon a = samples::polygon({samples::rectangle(0.0, 0.0, 1.0, 1.0)});
-    const Polygon b = samples::polygon({samples::rectangle(1.25, 0.0, 2.0, 1.0)});
+    const Polygon a = samples::polygon(test::rectangle({0.0, 0.0}, {1.0, 1.0}));
+    const Polygon b = samples::polygon(test::rectangle({1.25, 0.0}, {2.0, 1.0}));
     solvers::NearSamples finder;
-    simd::TransformedInstances instances;
-    const std::uint32_t index_a = instances.place(a, {});
-    const std::uint32_t index_b = instances.place(b, {});
+    const samples::PlacedPair pair(a, {}, b, {});
     std::size_t lists = 0;
     std::size_t count = 0;
-    finder.find(instances[index_a], instances[index_b], 0.26, 1e-6, [&] {
+    finder.find(pair.a(), pair.b(), 0.26, 1e-6, [&] {
         EXPECT_LE(finder.points().size(), narrowphase::points_at_once(b.size()));
         count += finder.points().size();
         ++lists;
@@ -134,8 +125,7 @@ TEST(NearSamples, OfManyComeInListsOfBoundedLength) {
     EXPECT_GT(lists, 10U);
     EXPECT_GE(count, 1'000'000U);
     EXPECT_LT(count, 1'100'000U);
-    EXPECT_GE(finder.max_samples(instances[index_a], instances[index_b], 0.26, 1e-6),
-              static_cast<double>(count));
+    EXPECT_GE(finder.max_samples(pair.a(), pair.b(), 0.26, 1e-6), static_cast<double>(count));
 }
 
 }  // namespace

@@ -71,8 +71,8 @@ void expect_equal(const PenetrationResult& one, const PenetrationResult& other) 
 
 /// The way back takes over what the way there has found, as far as that has looked for it.
 TEST(ReversedPairs, AreAnsweredAsByThemselvesWhateverTheWayThereWasAskedFor) {
-    samples::Random random(11);
-    const std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
+    test::Random random(11);
+    const std::vector<test::NamedRings> shapes = samples::assorted_shapes(random);
     std::vector<Asked> asked;
     for (const auto points : {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
         asked.push_back({points, true});

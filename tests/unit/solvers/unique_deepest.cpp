@@ -57,46 +57,25 @@ Ring bar(double half_width, std::uint32_t pieces) {
     return ring;
 }
 
-TEST(UniqueDeepest, WithoutRecordsOnlyATipBetweenTwoWallsHasSeveralWaysOut) {
-    const Polygon a = tip();
-    for (const std::uint32_t pieces : {1U, 3U, 40U, 400U}) {
-        SCOPED_TRACE(std::to_string(2 * pieces + 2) + " edges");
-        const Polygon b = samples::polygon({bar(1.0, pieces)});
-        for (const double across : {0.0, 0.4e-3 * d, -0.4e-3 * d}) {
-            const PenetrationResult middle = answer(a, b, {{across, 0.01}, 0.0}, false);
-            EXPECT_TRUE(middle.points.empty());
-            EXPECT_EQ(middle.count, 1U);
-            EXPECT_FALSE(middle.deepest.unique) << across;
-        }
-        for (const double across : {0.6e-3 * d, -0.3, 0.5}) {
-            const PenetrationResult aside = answer(a, b, {{across, 0.01}, 0.0}, false);
-            EXPECT_EQ(aside.count, 1U);
-            EXPECT_TRUE(aside.deepest.unique) << across;
-            EXPECT_NEAR(aside.deepest.depth, 1.0 - std::abs(across), 1e-12);
-        }
-    }
-}
-
 TEST(UniqueDeepest, WithoutRecordsItIsThatOfTheRecords) {
-    samples::Random random(611);
-    const std::vector<samples::NamedRings> awkward = samples::awkward_shapes(random);
+    test::Random random(611);
+    const std::vector<test::NamedRings> awkward = samples::awkward_shapes(random);
     std::uint32_t unique = 0;
     std::uint32_t several = 0;
     for (std::uint32_t i = 0; i < 2000; ++i) {
         SCOPED_TRACE("case " + std::to_string(i));
         const bool walls = i % 2 == 0;
-        const auto any_b = [&]() -> samples::Rings {
+        const auto any_b = [&]() -> test::Rings {
             if (walls) {
                 return {bar(1.0, 1 + random.below(300))};
             }
             // A tree of boxes does not tell which edge of these is near.
-            return i % 100 == 1
-                       ? awkward[i / 100 % awkward.size()].rings
-                       : samples::Rings{samples::star(random, 3 + random.below(300), 0.4, 1.0)};
+            return i % 100 == 1 ? awkward[i / 100 % awkward.size()].rings
+                                : test::star(random, random.whole(3, 302), 0.4);
         };
-        const Polygon a =
-            walls ? tip()
-                  : samples::polygon({samples::star(random, 3 + random.below(60), 0.1, 0.8)});
+        const Polygon a = walls ? tip()
+                                : samples::polygon(test::scaled_and_moved(
+                                      test::star(random, random.whole(3, 62), 0.125), 0.8, {}));
         const Polygon b = samples::polygon(any_b());
         const Pose pose =
             walls ? Pose{{random.between(-1e-3, 1e-3) * d, random.between(-1.0, 1.0)}, 0.0}

@@ -11,9 +11,9 @@
 namespace nearfield::samples {
 
 /// Regular rings inside each other, scaled about `centre`; every `repeat`-th one comes twice.
-inline Rings nested(std::uint32_t rings, std::uint32_t sides, const Vector2& centre,
-                    std::uint32_t repeat) {
-    Rings all;
+inline test::Rings nested(std::uint32_t rings, std::uint32_t sides, const Vector2& centre,
+                          std::uint32_t repeat) {
+    test::Rings all;
     for (std::uint32_t i = 0; i < rings; ++i) {
         const double scale = 1.0 - 0.95 * i / rings;
         Ring ring;
@@ -31,17 +31,17 @@ inline Rings nested(std::uint32_t rings, std::uint32_t sides, const Vector2& cen
 }
 
 /// Squares inside each other on a grid of whole numbers.
-inline Rings nested_squares(std::uint32_t count) {
-    Rings all;
+inline test::Rings nested_squares(std::uint32_t count) {
+    test::Rings all;
     for (std::uint32_t i = 1; i <= count; ++i) {
         const double half = i;
         all.push_back({{0.0, -half}, {half, 0.0}, {0.0, half}, {-half, 0.0}});
-        all.push_back(rectangle(-half, -half, half, half));
+        all.push_back(test::rectangle({-half, -half}, {half, half}).front());
     }
     return all;
 }
 
-inline std::vector<NamedRings> awkward_shapes(Random& random) {
+inline std::vector<test::NamedRings> awkward_shapes(test::Random& random) {
     Ring spikes;
     for (std::uint32_t i = 0; i < 3000; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / 3000;

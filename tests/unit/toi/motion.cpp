@@ -17,18 +17,18 @@ Vector vertex_at(const Motion& motion, std::uint32_t vertex, double time) {
     return geometry::TransformedPolygon(motion.polygon(), motion.at(time)).vertex(vertex);
 }
 
-Polygon any_polygon(samples::Random& random) {
-    return samples::polygon(samples::moved({samples::star(random, 5, 0.2, 1.0)},
-                                           random.between(-3.0, 3.0), random.between(-3.0, 3.0)));
+Polygon any_polygon(test::Random& random) {
+    return samples::polygon(test::scaled_and_moved(
+        test::star(random, 5, 0.2), 1.0, {random.between(-3.0, 3.0), random.between(-3.0, 3.0)}));
 }
 
-Pose any_pose(samples::Random& random) {
+Pose any_pose(test::Random& random) {
     return {{random.between(-4.0, 4.0), random.between(-4.0, 4.0)},
             random.below(4) == 0 ? 0.0 : random.between(-7.0, 7.0)};
 }
 
 TEST(Motion, VelocityAndAccelerationAreTheDerivatives) {
-    samples::Random random(511);
+    test::Random random(511);
     for (int i = 0; i < 200; ++i) {
         const Polygon polygon = any_polygon(random);
         const Motion motion(polygon, any_pose(random), any_pose(random));
@@ -71,7 +71,7 @@ Way way_of(const Motion& a, std::uint32_t of_a, const Motion& b, std::uint32_t o
 }
 
 TEST(Motion, BoundsHoldForAllVertices) {
-    samples::Random random(512);
+    test::Random random(512);
     for (int i = 0; i < 300; ++i) {
         const Polygon of_a = any_polygon(random);
         const Polygon of_b = any_polygon(random);
@@ -97,7 +97,7 @@ TEST(Motion, BoundsHoldForAllVertices) {
 }
 
 TEST(Motion, BoundsAreReachedByPlainMotions) {
-    const Polygon bar = samples::polygon({samples::rectangle(-1.0, -0.0625, 1.0, 0.0625)});
+    const Polygon bar = samples::polygon(test::rectangle({-1.0, -0.0625}, {1.0, 0.0625}));
     const Motion rest(bar, {}, {});
     const Motion straight(bar, {}, {{3.0, 4.0}, 0.0});
     const RelativeMotion to(rest, {rest, rest.at(0.0)}, straight, {straight, straight.at(0.0)});

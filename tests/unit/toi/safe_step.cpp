@@ -62,7 +62,7 @@ Impact after_one_step(const Moving& pair, double contact_distance = 0.0) {
 }
 
 Polygon square(double half) {
-    return samples::polygon({samples::rectangle(-half, -half, half, half)});
+    return samples::polygon(test::rectangle({-half, -half}, {half, half}));
 }
 
 TEST(SafeStep, OfATranslationLeavesAnEighthOfTheDistance) {
@@ -105,18 +105,17 @@ TEST(SafeStep, OfMorePairsThanAreTestedStopsShortOfTheOthers) {
     EXPECT_GE(distance_at(pair.of_a(), pair.of_b(), impact.time), keep);
 }
 
-Polygon any_moving_polygon(samples::Random& random) {
+Polygon any_moving_polygon(test::Random& random) {
     const double size = random.between(0.02, 1.0);
-    samples::Rings rings{random.below(2) == 0
-                             ? samples::star(random, 3 + random.below(4), 0.3 * size, size)
-                             : samples::rectangle(-size, -0.1 * size, size, 0.1 * size)};
+    const test::Rings rings = random.below(2) == 0 ? test::star(random, random.whole(3, 6), 0.3)
+                                                   : test::rectangle({-1.0, -0.1}, {1.0, 0.1});
     // Often far from the point that it turns about.
     const double arm = random.below(3) == 0 ? 0.0 : 4.0;
-    return samples::polygon(
-        samples::moved(rings, random.between(-arm, arm), random.between(-arm, arm)));
+    return samples::polygon(test::scaled_and_moved(
+        rings, size, {random.between(-arm, arm), random.between(-arm, arm)}));
 }
 
-Moving any_pair(samples::Random& random) {
+Moving any_pair(test::Random& random) {
     const auto pose = [&random](double turn) {
         return Pose{{random.between(-4.0, 4.0), random.between(-4.0, 4.0)},
                     random.below(4) == 0 ? 0.0 : random.between(-turn, turn)};
@@ -130,7 +129,7 @@ Moving any_pair(samples::Random& random) {
 }
 
 TEST(SafeStep, IsNeverTooLongForAnyMotion) {
-    samples::Random random(501);
+    test::Random random(501);
     int moved = 0;
     for (int i = 0; i < 6000; ++i) {
         SCOPED_TRACE("case " + std::to_string(i));
@@ -155,7 +154,7 @@ TEST(SafeStep, IsNeverTooLongForAnyMotion) {
 }
 
 TEST(SafeStep, ACertifiedDistanceIsKeptUntilTheContact) {
-    samples::Random random(502);
+    test::Random random(502);
     ConservativeAdvancement finder;
     int hits = 0;
     for (int i = 0; i < 800; ++i) {

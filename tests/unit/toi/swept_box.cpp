@@ -10,17 +10,17 @@ namespace {
 using geometry::Box;
 using geometry::Polygon;
 
-Pose any_pose(samples::Random& random, double scale) {
+Pose any_pose(test::Random& random, double scale) {
     return {{random.between(-scale, scale), random.between(-scale, scale)},
             random.below(4) == 0 ? 0.0 : random.between(-9.0, 9.0)};
 }
 
 TEST(SweptBox, HoldsThePolygonAtAllTimes) {
-    samples::Random random(512);
+    test::Random random(512);
     for (int i = 0; i < 300; ++i) {
-        const Polygon polygon =
-            samples::polygon(samples::moved({samples::star(random, 7, 0.2, 1.0)},
-                                            random.between(-9.0, 9.0), random.between(-9.0, 9.0)));
+        const Polygon polygon = samples::polygon(
+            test::scaled_and_moved(test::star(random, 7, 0.2), 1.0,
+                                   {random.between(-9.0, 9.0), random.between(-9.0, 9.0)}));
         const double scale = random.below(3) == 0 ? 1e6 : 4.0;
         const Pose start = any_pose(random, scale);
         Pose end = any_pose(random, scale);
