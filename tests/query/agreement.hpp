@@ -73,5 +73,11 @@ void check_agreement(Report& report, const Asked& asked, const ContactResult& on
                      const ContactResult& other);
 void check_agreement(Report& report, const Asked& asked, const DistanceFieldResult& one,
                      const DistanceFieldResult& other);
+void check_agreement(Report& report, const Asked& asked, const IntersectionResult& one,
+                     const IntersectionResult& other);
+void check_agreement(Report& report, const Asked& asked, const ClosestPointResult& one,
+                     const ClosestPointResult& other);
+void check_agreement(Report& report, const Asked& asked, const SeparationResult& one,
+                     const SeparationResult& other);
 
 }  // namespace nearfield::test

@@ -1,4 +1,6 @@
+#include <tests/query/all_numbers.hpp>
 #include <tests/query/check.hpp>
+#include <tests/query/every_query.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/numbers.hpp>
 
@@ -6,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <type_traits>
+#include <variant>
 
 namespace nearfield::test {
 namespace {
@@ -121,6 +124,56 @@ TEST_F(Batches, RunTwiceGiveTheSame) {
         expect_same_answers(first.results[i], second.results[i]);
     }
     EXPECT_GT(second.timings.total, 0.0);
+}
+
+/// Neither results of other kinds nor refusals.
+TEST_F(Batches, ShowNothingOfWhatResultsHeldBefore) {
+    Random random(batches_seed);
+    const ShapeHandle a = *context().add_shape(star(random, 20, 0.5));
+    const ShapeHandle b = *context().add_shape(with_holes(random, 3));
+    Results kept;
+    for (int number = 0; number < 4; ++number) {
+        SCOPED_TRACE(number);
+        const Batch every = every_query(a, b, 0);
+        const auto queries = every.queries();
+        Batch batch;
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            AnyQuery any = queries[(5 * static_cast<std::size_t>(number) + i) % queries.size()];
+            std::visit(
+                [&](auto& query) {
+                    if (i % 3 == static_cast<std::size_t>(number) % 3) {
+                        query.b.pose.angle = infinity;
+                    }
+                    batch.add(query);
+                },
+                any);
+        }
+        Results fresh;
+        ASSERT_TRUE(context().run(batch, fresh).ok());
+        ASSERT_TRUE(context().run(batch, kept).ok());
+        Results of_both = kept;
+        for (Results* const results : {&fresh, &of_both}) {
+            for (AnyResult& any : results->results) {
+                std::visit(
+                    [](auto& result) {
+                        if (result.status.ok()) {
+                            return;
+                        }
+                        // What was asked for may still be that of another query.
+                        result.tolerance = result.cell = 0.0;
+                        result.technique = {};
+                        if constexpr (requires { result.strategy; }) {
+                            result.kind = {};
+                            result.strategy = {};
+                        }
+                    },
+                    any);
+            }
+        }
+        EXPECT_EQ(all_numbers(of_both), all_numbers(fresh));
+    }
+    EXPECT_TRUE(context().remove_shape(a).ok());
+    EXPECT_TRUE(context().remove_shape(b).ok());
 }
 
 TEST_F(Batches, EmptyOnesAreFine) {

@@ -38,20 +38,6 @@ protected:
     static void check(Pair pair) { check(context(), std::move(pair)); }
 };
 
-TEST_F(ComputeIntersections, HoldForManyEdgesInACell) {
-    Random random(compute_intersection_seed);
-    check({{"fine coast", coast(random, 9000, 0.4)},
-           {"coarse coast", coast(random, 300, 0.5)},
-           {},
-           {{0.3, -0.2}, 1.0},
-           0.02});
-    check({{"coast", coast(random, 4000, 0.6)},
-           {"another", coast(random, 5000, 0.6)},
-           {{}, 0.3},
-           {{0.2, 0.1}, 2.0},
-           0.03});
-}
-
 TEST_F(ComputeIntersections, HoldForHolesAndIslands) {
     Random random(compute_intersection_seed);
     for (int i = 0; i < 6; ++i) {

@@ -32,22 +32,6 @@ void expect_near(const Vector2& value, const Vector2& expected) {
     EXPECT_LT(oracle::distance(value, expected), 1e-12) << value.x << ", " << value.y;
 }
 
-TEST_F(Contacts, HoldForRandomPairs) {
-    std::size_t found = 0;
-    for_each_case(contacts_seed, 120, [&](Random& random) {
-        Pair pair = any_pair(random);
-        const double contact_distance = pair.tolerance * random.scale(0.3, 8.0);
-        found += check(std::move(pair), contact_distance).count > 0 ? 1U : 0U;
-    });
-    EXPECT_GT(found, static_cast<std::size_t>(random_cases(120)) / 3);
-}
-
-TEST_F(Contacts, HoldForEveryFamily) {
-    for (const Pair& pair : family_pairs(contacts_seed)) {
-        check(pair, 0.5);
-    }
-}
-
 TEST_F(Contacts, ABoxOnAFloorHasTwoEndsAndOneNormal) {
     const Rings box = rectangle({-1, 0.05}, {1, 2});
     const Rings floor = rectangle({-10, -1}, {10, 0});
@@ -118,29 +102,6 @@ TEST_F(Contacts, SharedEdgesTouchAtDistanceZero) {
     }
 }
 
-TEST_F(Contacts, NormalsByTheGradientAreThoseOfTheFieldNearWalls) {
-    // Away from corners, central differences of a straight wall's distance equal its normal.
-    const PlacedPair placed(context(), {{"A", rectangle({-1, 0.05}, {1, 2})},
-                                        {"B", rectangle({-10, -1}, {10, 0})},
-                                        {{0, 0}, 0.3},
-                                        {{0, 0}, 0.3},
-                                        0.02});
-    ContactQuery query = placed.contacts(0.2);
-    const ContactResult analytic = run_alone(context(), query);
-    query.normals = ContactNormals::gradient;
-    const ContactResult gradient = run_alone(context(), query);
-    ASSERT_TRUE(gradient.status.ok()) << gradient.status.text();
-    ASSERT_EQ(gradient.points.size(), analytic.points.size());
-    ASSERT_GT(gradient.points.size(), 50U);
-    for (std::size_t i = 0; i < gradient.points.size(); ++i) {
-        EXPECT_EQ(gradient.points[i].position, analytic.points[i].position);
-        EXPECT_EQ(gradient.points[i].distance, analytic.points[i].distance);
-        EXPECT_LT(oracle::distance(gradient.points[i].normal, analytic.points[i].normal), 1e-3);
-    }
-    ASSERT_EQ(gradient.manifold.size(), analytic.manifold.size());
-    EXPECT_LT(oracle::distance(gradient.manifold[0].normal, analytic.manifold[0].normal), 1e-3);
-}
-
 TEST_F(Contacts, NormalsByTheGradientPointOutOfRandomShapes) {
     std::size_t compared = 0;
     std::size_t close = 0;
@@ -171,31 +132,6 @@ TEST_F(Contacts, NothingFarApart) {
     EXPECT_EQ(result.count, 0U);
     EXPECT_TRUE(result.manifold.empty());
     EXPECT_TRUE(result.regions.empty());
-}
-
-TEST_F(Contacts, WithoutRecordsTheSummaryIsTheSame) {
-    const PlacedPair placed(
-        context(),
-        {{"A", rectangle({-1, 0.05}, {1, 2})}, {"B", rectangle({-10, -1}, {10, 0})}, {}, {}, 0.1});
-    ContactQuery query = placed.contacts(0.2);
-    const ContactResult with = run_alone(context(), query);
-    query.summary_only = true;
-    const ContactResult without = run_alone(context(), query);
-    EXPECT_TRUE(without.points.empty());
-    EXPECT_EQ(without.count, with.count);
-    ASSERT_EQ(without.manifold.size(), with.manifold.size());
-    EXPECT_EQ(without.manifold.front().first, with.manifold.front().first);
-}
-
-TEST_F(Contacts, ABadContactDistanceIsRefused) {
-    const PlacedPair placed(
-        context(),
-        {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 0.1});
-    for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-        const ContactResult result = run_alone(context(), placed.contacts(bad));
-        EXPECT_EQ(result.status.code(), StatusCode::invalid_query);
-        EXPECT_NE(result.status.message().find("contact distance"), std::string::npos);
-    }
 }
 
 }  // namespace

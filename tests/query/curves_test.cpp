@@ -77,7 +77,7 @@ TEST_F(Curves, PenetrationOfCirclesIsWithinItsBoundOfTheAnalyticAnswer) {
     }
 }
 
-void check_field(const RoundShape& circle, const DistanceFieldResult& result) {
+void check_field_of(const RoundShape& circle, const DistanceFieldResult& result) {
     ASSERT_TRUE(result.status.ok()) << result.status.text();
     EXPECT_LE(result.error_bound, result.tolerance);
     ASSERT_FALSE(result.values.empty());
@@ -110,7 +110,7 @@ TEST_F(Curves, FieldOfACircleIsWithinItsBoundOfTheAnalyticAnswer) {
                 EXPECT_NE(result.status.message().find("this device's raster"), std::string::npos)
                     << result.status.text();
             } else {
-                check_field(circle, result);
+                check_field_of(circle, result);
             }
         }
     }

@@ -1,7 +1,10 @@
 #include "device_offers.hpp"
 
+#include <engine/geometry/mesh.hpp>
+
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string_view>
 
 namespace nearfield::test {
@@ -33,6 +36,10 @@ std::uint32_t sub_pixel_bits(const HostDevice& host) {
     }
     ADD_FAILURE() << "the limit is not among the requirements";
     return 0;
+}
+
+bool has_grid_of_cpu(const HostDevice& host) {
+    return std::exp2(sub_pixel_bits(host)) == geometry::cpu_grid.steps;
 }
 
 void expect_logic_op_refused(const IntersectionResult& result) {

@@ -15,6 +15,9 @@ namespace nearfield::test {
 /// VkPhysicalDeviceLimits::subPixelPrecisionBits: 4, the minimum that Vulkan requires, or more.
 [[nodiscard]] std::uint32_t sub_pixel_bits(const HostDevice& host);
 
+/// True if the CPU's intersections have the samples that the device draws.
+[[nodiscard]] bool has_grid_of_cpu(const HostDevice& host);
+
 /// Expects the error of a query whose strategy needs the feature logicOp on a device without it.
 void expect_logic_op_refused(const IntersectionResult& result);
 

@@ -82,21 +82,23 @@ protected:
     }
     [[nodiscard]] std::size_t size_of_both() const { return added_.size(); }
     template <class Query>
-    static PairTable<Query> table_of(const Query& query, double reach = 0.05) {
-        return PairTable<Query>(query, within(reach, on_device));
-    }
-    /// How many dispatches a part has.
+    struct Tables {
+        PairTable<Query> whole;     ///< for world()
+        PairTable<Query> in_parts;  ///< for small_world()
+        int dispatches = 0;         ///< of a part
+    };
     template <class Query>
-    int dispatches_of_a_part(const Query& query) {
+    Tables<Query> tables_of(const Query& query, const PairTableOptions& options = on_device) {
         Expected<World> few = World::create(*small_);
         const ShapeHandle shape = *small_->add_shape(rectangle({0, 0}, {1, 1}));
         for (int i = 0; i < 2; ++i) {
             EXPECT_TRUE(few->add({.shape = shape}).has_value());
         }
-        PairTable<Query> table = table_of(query);
-        EXPECT_TRUE(few->update(table).ok());
+        PairTable<Query> few_pairs(query, options);
+        EXPECT_TRUE(few->update(few_pairs).ok());
         EXPECT_GT(calls_of_parts.dispatches, 0);
-        return calls_of_parts.dispatches;
+        return {PairTable<Query>(query, options), PairTable<Query>(query, options),
+                calls_of_parts.dispatches};
     }
     /// Stars that overlap, all in a square.
     void add_crowd(Random& random, int count, double extent) {
@@ -104,6 +106,11 @@ protected:
         for (int i = 0; i < count; ++i) {
             add_to_both(shape, any_pose(random, extent));
         }
+    }
+    Random make_crowd(std::uint64_t seed, int count, double extent) {
+        Random random(seed);
+        add_crowd(random, count, extent);
+        return random;
     }
 
     /// All that a table says but which of the edges that meet at a nearest point it names: that

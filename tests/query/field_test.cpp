@@ -1,40 +1,88 @@
-#include <tests/query/check.hpp>
-#include <tests/query/query_test.hpp>
+#include <tests/query/degenerate_shapes.hpp>
+#include <tests/query/field_laws.hpp>
+#include <tests/support/fake_loader.hpp>
+#include <tests/support/outlines.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 namespace nearfield::test {
 namespace {
 
 constexpr std::uint64_t field_seed = 90210;
 
-class Field : public QueryTest {
+/// Fields by every technique: by the raster, by the CPU, and by compute, which lists the edges near
+/// each block by one thread on devices that run on the CPU, and by workgroups on others. The device
+/// of other() claims to be of the other kind.
+class Field : public FieldLaws {
 protected:
-    /// Checks the field of a shape over a rectangle with both techniques; returns the raster's.
-    static DistanceFieldResult check(const Rings& rings, const Pose& pose, double tolerance,
-                                     const Rectangle& rectangle) {
-        Expected<ShapeHandle> handle = context().add_shape(rings);
-        EXPECT_TRUE(handle.has_value()) << handle.error().text();
-        DistanceFieldQuery query;
-        query.technique = Technique::raster;
-        query.b = {*handle, pose};
-        query.tolerance = tolerance;
-        query.rectangle = rectangle;
-        DistanceFieldResult result = run_alone(context(), query);
-        SCOPED_TRACE(to_text(rings) + " d = " + std::to_string(tolerance));
-        check_field(oracle::ShapeOracle(rings, pose), tolerance, result);
-        check_covers(result, rectangle);
-        query.technique = Technique::cpu;
-        const DistanceFieldResult exact = run_alone(context(), query);
-        EXPECT_EQ(exact.technique, Technique::cpu);
-        check_field(oracle::ShapeOracle(rings, pose), tolerance, exact, 2000);
-        check_agree(result, exact);
-        EXPECT_TRUE(context().remove_shape(*handle).ok());
-        return result;
+    void SetUp() override {
+        test_support::Lies lies;
+        lies.properties = [](VkPhysicalDeviceProperties& properties) {
+            properties.deviceType = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
+                                        ? VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU
+                                        : VK_PHYSICAL_DEVICE_TYPE_CPU;
+        };
+        loader_.emplace(host_device(), std::move(lies));
+        Expected<Context> made = Context::create(loader_->host(), on_demand());
+        ASSERT_TRUE(made.has_value()) << made.error().text();
+        other_.emplace(std::move(*made));
     }
+    void TearDown() override {
+        other_.reset();
+        loader_.reset();
+        FieldLaws::TearDown();
+    }
+    [[nodiscard]] Context& other() { return *other_; }
 
+    /// Checks the field of a shape over a rectangle; returns that of the first technique.
+    DistanceFieldResult check(const Rings& rings, const Pose& pose, double tolerance,
+                              const Rectangle& rectangle, bool features = false) {
+        SCOPED_TRACE(to_text(rings) + " d = " + std::to_string(tolerance));
+        const PlacedShape shape(context(), rings, pose);
+        const PlacedShape others(other(), rings, pose);
+        DistanceFieldQuery query{.b = shape.instance(), .tolerance = tolerance};
+        query.rectangle = rectangle;
+        query.features = query.gradients = features;
+        std::vector<DistanceFieldResult> results;
+        for (const Technique technique : every_technique) {
+            query.technique = technique;
+            results.push_back(run_alone(context(), query));
+            EXPECT_EQ(results.back().technique, technique);
+        }
+        const DistanceFieldResult computed = results[device_techniques.size() - 1];
+        query.technique = Technique::compute;
+        query.b = others.instance();
+        results.insert(results.begin(), run_alone(other(), query));
+        check_same(computed, results.front());
+        for (const DistanceFieldResult& result : results) {
+            SCOPED_TRACE(to_string(result.technique));
+            const bool is_first = &result == &results[1];
+            check_field(shape.oracle(), tolerance, result, is_first ? 20000 : 2000);
+            check_covers(result, rectangle);
+            check_agree(result, results.back());
+            if (features) {
+                check_cells(shape.oracle(), query, result, 500);
+            }
+        }
+        return results[1];
+    }
+    /// Both ways to list edges find the same but for roundings.
+    static void check_same(const DistanceFieldResult& expected, const DistanceFieldResult& result) {
+        ASSERT_TRUE(expected.status.ok()) << expected.status.text();
+        ASSERT_TRUE(result.status.ok()) << result.status.text();
+        ASSERT_EQ(result.values.size(), expected.values.size());
+        Report report("values by other lists");
+        for (std::size_t i = 0; i < result.values.size(); ++i) {
+            const float most =
+                1e-5F * std::max(std::abs(expected.values[i]), static_cast<float>(result.cell));
+            report.require(std::abs(result.values[i] - expected.values[i]) <= most, "cell ", i,
+                           ": ", result.values[i], " and ", expected.values[i]);
+        }
+    }
     /// Expects the same grid, values within the sum of both bounds, and equal signs unless a value
     /// is near 0.
     static void check_agree(const DistanceFieldResult& raster, const DistanceFieldResult& exact) {
@@ -54,6 +102,30 @@ protected:
                            value);
             report.require((drawn < 0.0) == (value < 0.0) || std::abs(value) <= most, "cell ", i,
                            " is ", drawn, " and ", value);
+        }
+    }
+
+    /// Expects the same bits each time.
+    void check_repeats(const Rings& rings, double tolerance, bool features) {
+        const PlacedShape shape(other(), rings, {});
+        DistanceFieldQuery query;
+        query.b = shape.instance();
+        query.tolerance = tolerance;
+        query.rectangle = Rectangle{{-1.5, -1.4}, {1.4, 1.5}};
+        query.features = query.gradients = features;
+        query.technique = Technique::compute;
+        const DistanceFieldResult first = run_alone(other(), query);
+        EXPECT_TRUE(first.status.ok()) << first.status.text();
+        for (int i = 0; i < 5; ++i) {
+            const DistanceFieldResult next = run_alone(other(), query);
+            EXPECT_EQ(next.values, first.values);
+            EXPECT_TRUE(std::equal(next.features.begin(), next.features.end(),
+                                   first.features.begin(), first.features.end(),
+                                   [](const Feature& a, const Feature& b) {
+                                       return a.kind == b.kind && a.index == b.index;
+                                   }));
+            EXPECT_EQ(next.gradients, first.gradients);
+            EXPECT_EQ(next.unique, first.unique);
         }
     }
 
@@ -91,10 +163,14 @@ protected:
         EXPECT_LE(right - result.cell, rectangle.max.x + allowed);
         EXPECT_LE(top - result.cell, rectangle.max.y + allowed);
     }
+
+private:
+    std::optional<test_support::FakeLoader> loader_;
+    std::optional<Context> other_;
 };
 
 TEST_F(Field, HoldsForRandomShapes) {
-    for_each_case(field_seed, 120, [&](Random& random) {
+    for_each_case(field_seed, 50, [&](Random& random) {
         const Pair pair = any_pair(random);
         const Rectangle box = oracle::ShapeOracle(pair.b.rings, pair.pose_b).box();
         const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
@@ -102,7 +178,8 @@ TEST_F(Field, HoldsForRandomShapes) {
                           box.min.y + size * random.between(-0.5, 0.8)};
         const Vector2 high{low.x + size * random.scale(0.02, 1.5),
                            low.y + size * random.scale(0.02, 1.5)};
-        check(pair.b.rings, pair.pose_b, size * random.scale(0.004, 0.2), {low, high});
+        check(pair.b.rings, pair.pose_b, size * random.scale(0.004, 0.2), {low, high},
+              random.whole(0, 2) == 0);
     });
 }
 
@@ -110,6 +187,86 @@ TEST_F(Field, HoldsForEveryFamily) {
     for (const auto& [name, rings] : every_family(field_seed)) {
         SCOPED_TRACE(name);
         check(rings, {{0.5, -0.25}, 0.9}, 0.02, {{-1.0, -1.5}, {2.0, 1.0}});
+        check(rings, {{1e6, -1e6}, 0.4}, 0.03, {{1e6 - 1.3, -1e6 - 1.2}, {1e6 + 1.2, -1e6 + 1.3}});
+        check(rings, {}, 0.06, {{-1.3, -1.2}, {1.2, 1.3}}, true);
+    }
+}
+
+/// Vertices on samples and on rows of samples, slivers, folds.
+TEST_F(Field, HoldsForDegenerateShapes) {
+    constexpr std::uint32_t cells = 40;
+    for (const auto& [name, rings] : degenerate_shapes(context(), cells, field_seed)) {
+        SCOPED_TRACE(name);
+        for (const bool features : {false, true}) {
+            check(rings, {}, 1.0 / std::numbers::sqrt2, {{0, 0}, {cells, cells}}, features);
+        }
+    }
+}
+
+/// Of several levels of boxes, and several rounds of each list.
+TEST_F(Field, HoldsForLargeShapes) {
+    Random random(field_seed);
+    for (const int vertices : {600, 9000, 60000}) {
+        check(coast(random, vertices, 0.6), {}, 0.013, {{-1.5, -1.4}, {1.4, 1.5}});
+    }
+    check(coast(random, 9000, 0.8), {}, 0.03, {{-1.5, -1.4}, {1.4, 1.5}}, true);
+    // So dense that only the outer edges are ever nearest.
+    check(star(random, 5000, 0.2), {}, 0.02, {{-1.1, -1.2}, {1.2, 1.1}}, true);
+    // Around its centre all edges of a circle are about equally near.
+    check(regular(500), {}, 0.002, {{-0.04, -0.03}, {0.03, 0.05}}, true);
+    for (const NamedRings& outline : read_outlines(NEARFIELD_TEST_DATA)) {
+        SCOPED_TRACE(outline.name);
+        const Rectangle box = oracle::ShapeOracle(outline.rings, {}).box();
+        const double d = std::max(box.max.x - box.min.x, box.max.y - box.min.y) / 150.0;
+        check(outline.rings, {}, d, box);
+        check(outline.rings, {}, 4.0 * d, box, true);
+    }
+}
+
+TEST_F(Field, HoldsWhateverIsLeftOfTheLastBlock) {
+    Random random(field_seed);
+    const Rings shape = coast(random, 300, 0.5);
+    const double d = 0.01;
+    const double cell = d * std::numbers::sqrt2;
+    for (const int columns : {1, 7, 8, 9, 15, 16, 17, 24, 33, 47, 49, 65}) {
+        const int rows = random.whole(1, 70);
+        SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows));
+        const Vector2 low{random.between(-1.0, 0.5), random.between(-1.0, 0.5)};
+        check(shape, {}, d, {low, {low.x + (columns - 0.5) * cell, low.y + (rows - 0.5) * cell}},
+              columns % 3 == 0);
+    }
+}
+
+TEST_F(Field, HoldsFarAwayAndBeyondATile) {
+    Random random(field_seed);
+    const Rings shape = scaled_and_moved(star(random, 12, 0.3), 20.0, {});
+    const double d = 1.0 / (150.0 * std::numbers::sqrt2);  // 150 cells per unit
+    const auto wide = check(shape, {}, d, {{-20.0, 3.0}, {20.0, 3.05}});
+    EXPECT_GT(wide.width, 5900U);
+    const auto high = check(shape, {}, d, {{-0.03, -20.0}, {0.03, 20.0}});
+    EXPECT_GT(high.height, 5900U);
+    check(shape, {}, 0.5, {{500.0, -600.0}, {540.0, -580.0}});
+    check(shape, {}, 0.5, {{500.0, -600.0}, {520.0, -590.0}}, true);
+}
+
+TEST_F(Field, HoldsForTinyAndHugeTolerances) {
+    Random random(field_seed);
+    const Rings shape = star(random, 40, 0.4);
+    const auto one = check(shape, {}, 100.0, {{-1, -1}, {1, 1}});
+    EXPECT_EQ(one.values.size(), 1U);
+    check(shape, {}, 1e-5, {{0.5, 0.5}, {0.5005, 0.5008}}, true);
+    // Around a vertex of a shape of 10^8 cells.
+    const Vector2 vertex = shape[0][3];
+    for (const bool features : {false, true}) {
+        check(shape, {}, 1e-8,
+              {{vertex.x - 1e-6, vertex.y - 7e-7}, {vertex.x + 9e-7, vertex.y + 8e-7}}, features);
+    }
+    check(shape, {}, 0.05, {{30.0, -40.0}, {32.0, -38.0}});  // far outside
+    check(scaled_and_moved(shape, 1e-3, {}), {{1e6, 1e6}, 0.3}, 2e-5,
+          {{1e6 - 1e-3, 1e6 - 1e-3}, {1e6 + 1e-3, 1e6 + 1e-3}});
+    for (const double factor : {1e-12, 1e7, 1e11}) {
+        check(scaled_and_moved(shape, factor, {}), {}, 0.01 * factor,
+              {{-factor, -factor}, {factor, factor}}, factor < 1.0);
     }
 }
 
@@ -157,35 +314,6 @@ TEST_F(Field, CoversWhatTheBoxesShare) {
             EXPECT_EQ(exact.intersects, result.intersects);
             check_agree(result, exact);
         }
-    }
-}
-
-TEST_F(Field, RectanglesLargerThanATileHold) {
-    Random random(field_seed);
-    const Rings shape = scaled_and_moved(star(random, 12, 0.3), 20.0, {});
-    const double d = 1.0 / (150.0 * std::numbers::sqrt2);  // 150 cells per unit
-    const auto wide = check(shape, {}, d, {{-20.0, 3.0}, {20.0, 3.05}});
-    EXPECT_GT(wide.width, 5900U);
-    const auto high = check(shape, {}, d, {{-0.03, -20.0}, {0.03, 20.0}});
-    EXPECT_GT(high.height, 5900U);
-}
-
-TEST_F(Field, TinyAndHugeTolerancesHold) {
-    Random random(field_seed);
-    const Rings shape = star(random, 40, 0.4);
-    const auto one = check(shape, {}, 100.0, {{-1, -1}, {1, 1}});
-    EXPECT_EQ(one.values.size(), 1U);
-    check(shape, {}, 1e-5, {{0.5, 0.5}, {0.5005, 0.5008}});
-    // Around a vertex of a shape of 10^8 cells.
-    const Vector2 vertex = shape[0][3];
-    check(shape, {}, 1e-8,
-          {{vertex.x - 1e-6, vertex.y - 7e-7}, {vertex.x + 9e-7, vertex.y + 8e-7}});
-    check(shape, {}, 0.05, {{30.0, -40.0}, {32.0, -38.0}});  // far outside
-    check(scaled_and_moved(shape, 1e-3, {}), {{1e6, 1e6}, 0.3}, 2e-5,
-          {{1e6 - 1e-3, 1e6 - 1e-3}, {1e6 + 1e-3, 1e6 + 1e-3}});
-    for (const double factor : {1e-12, 1e7, 1e11}) {
-        check(scaled_and_moved(shape, factor, {}), {}, 0.01 * factor,
-              {{-factor, -factor}, {factor, factor}});
     }
 }
 
@@ -283,6 +411,47 @@ TEST_F(Field, FarInsideIsDeepNegative) {
     for (const float value : result.values) {
         EXPECT_LT(value, -96.0F);
     }
+}
+
+TEST_F(Field, OfListsIsTheSameEveryTime) {
+    Random random(field_seed);
+    check_repeats(coast(random, 6000, 0.5), 0.01, false);
+    check_repeats(coast(random, 2000, 0.5), 0.03, true);
+    check_repeats(star(random, 50, 0.4), 0.02, true);
+}
+
+TEST_F(Field, HoldsWhereListsHaveNoRoom) {
+    // A region without room; a quarter without; blocks with more edges than a workgroup lists.
+    check(regular(8000), {}, 0.002, {{-0.04, -0.03}, {0.03, 0.05}}, false);
+    for (const int teeth : {100, 250, 400, 600}) {
+        Ring comb;
+        for (int i = 0; i < teeth; ++i) {
+            comb.push_back({i * 20.0 / teeth, i % 2 == 0 ? 0.0 : 10.0});
+        }
+        comb.push_back({20.0, -1.0});
+        comb.push_back({0.0, -1.0});
+        check({comb}, {{0.3, 0.2}, 0.1}, 0.5, {{-3, -3}, {16, 10}}, true);
+    }
+}
+
+TEST_F(Field, HoldsForManyRings) {
+    Rings crowd;
+    constexpr int across = 90;
+    for (int i = 0; i < across * across; ++i) {
+        const Vector2 low{(i % across) / 100.0 - 0.5,
+                          static_cast<double>(i / across) / 100.0 - 0.5};
+        crowd.push_back(
+            {low, {low.x + 1e-4, low.y}, {low.x + 1e-4, low.y + 1e-4}, {low.x, low.y + 1e-4}});
+    }
+    check(crowd, {}, 0.01, {{-0.7, -0.6}, {0.5, 0.5}}, true);
+    check(crowd, {}, 0.05, {{-0.7, -0.6}, {0.5, 0.5}}, false);
+    // Nested squares, each of four long edges.
+    Rings nested;
+    for (int i = 1; i <= 400; ++i) {
+        const double side = i / 400.0;
+        nested.push_back({{-side, -side}, {side, -side}, {side, side}, {-side, side}});
+    }
+    check(nested, {{}, 0.3}, 0.02, {{-1.2, -1.2}, {1.2, 1.2}}, true);
 }
 
 }  // namespace

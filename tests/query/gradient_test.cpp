@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 namespace nearfield::test {
 namespace {
@@ -15,85 +14,27 @@ constexpr std::uint64_t gradient_seed = 31337;
 
 class Gradients : public FieldLaws {
 protected:
-    /// Records the cost of blending in the test's report.
-    static void record_cost(const DistanceFieldResult& differences,
-                            const DistanceFieldResult& blended) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < differences.gradients.size(); ++i) {
-            sum += std::abs(static_cast<double>(differences.gradients[i] - blended.gradients[i]));
-        }
-        float farthest = 0.0F;
-        for (const float value : differences.values) {
-            farthest = std::max(farthest, std::abs(value));
-        }
-        const auto text = [](double number) {
-            std::ostringstream stream;
-            stream << number;
-            return stream.str();
-        };
-        RecordProperty("largest", text(max_apart(differences, blended)));
-        RecordProperty("mean", text(sum / static_cast<double>(differences.gradients.size())));
-        RecordProperty("stated",
-                       text(blended.gradient_error_bound - differences.gradient_error_bound));
-        RecordProperty("farthest_cells", text(static_cast<double>(farthest) / differences.cell));
-    }
-};
-
-TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForRandomShapes) {
-    const int cases = random_cases(60);
-    for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(gradient_seed) + " case " + std::to_string(i));
-        Random random(gradient_seed + static_cast<std::uint64_t>(i));
-        const AnyField field(context(), random);
-        DistanceFieldQuery query = field.query();
-        query.features = query.gradients = true;
-        query.sign = static_cast<SignEncoding>(i % 3);
-        SCOPED_TRACE(field.text());
-        check_cells(field.oracle(), query, run_alone(context(), query));
-        query.technique = Technique::cpu;
-        check_cells(field.oracle(), query, run_alone(context(), query), 1000);
-    }
-}
-
-TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForEveryFamily) {
-    for (const auto& [name, rings] : every_family(gradient_seed)) {
-        SCOPED_TRACE(name);
-        const PlacedShape shape(context(), rings, {{0.5, -0.25}, 0.9});
+    /// Differences of a field by the raster.
+    static DistanceFieldQuery differences_of(const PlacedShape& shape) {
         DistanceFieldQuery query;
+        query.technique = Technique::raster;
         query.b = shape.instance();
-        query.tolerance = 0.03;
-        query.rectangle = {{-1.0, -1.5}, {2.0, 1.0}};
-        query.features = query.gradients = true;
-        check_cells(shape.oracle(), query, run_alone(context(), query));
-        query.technique = Technique::cpu;
-        check_cells(shape.oracle(), query, run_alone(context(), query), 1000);
-    }
-}
-
-TEST_F(Gradients, CentralDifferencesHoldAndBlendingAgrees) {
-    const int cases = random_cases(40);
-    for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(gradient_seed) + " case " + std::to_string(i));
-        Random random(gradient_seed + 1000 + static_cast<std::uint64_t>(i));
-        const AnyField field(context(), random);
-        SCOPED_TRACE(field.text());
-        DistanceFieldQuery query = field.query();
+        query.tolerance = 0.01;
+        query.rectangle = {{-1.5, -1.5}, {1.5, 1.5}};
         query.gradients = true;
         query.gradient = GradientMethod::central_differences;
-        const auto differences = run_alone(context(), query);
-        query.gradient = GradientMethod::blended;
-        const auto blended = run_alone(context(), query);
-        check_differences(field.oracle(), differences);
-        check_blended(differences, blended);
-        // Two errors over two cells.
-        EXPECT_DOUBLE_EQ(differences.gradient_error_bound,
-                         differences.error_bound / differences.cell);
-        query.technique = Technique::cpu;
-        EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
-        query.gradient = GradientMethod::central_differences;
-        check_differences(field.oracle(), run_alone(context(), query), 1000);
+        return query;
     }
-}
+    /// Blending costs no more than the precision of a format.
+    static void check_format(Context& context, DistanceFieldQuery query, const char* format) {
+        const auto differences = run_alone(context, query);
+        query.gradient = GradientMethod::blended;
+        const auto blended = run_alone(context, query);
+        ASSERT_TRUE(blended.status.ok()) << blended.status.text();
+        EXPECT_STREQ(blended.gradient_format, format);
+        check_blended(differences, blended);
+    }
+};
 
 /// The device blends single precision; otherwise half precision must suffice.
 TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
@@ -108,75 +49,22 @@ TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
     Expected<Context> half = Context::create(loader.host(), on_demand());
     ASSERT_TRUE(half.has_value()) << half.error().text();
     Random random(gradient_seed);
-    const Rings rings = star(random, 30, 0.4);
-    const PlacedShape shape(*half, rings, {});
-    DistanceFieldQuery query;
-    query.technique = Technique::raster;
-    query.b = shape.instance();
-    query.tolerance = 0.01;
-    query.rectangle = {{-1.5, -1.5}, {1.5, 1.5}};
-    query.gradients = true;
-    query.gradient = GradientMethod::central_differences;
-    const auto differences = run_alone(*half, query);
-    query.gradient = GradientMethod::blended;
-    const auto blended = run_alone(*half, query);
-    ASSERT_TRUE(blended.status.ok()) << blended.status.text();
-    EXPECT_STREQ(blended.gradient_format, "R16G16_SFLOAT");
-    check_differences(shape.oracle(), differences);
-    check_blended(differences, blended);
-    record_cost(differences, blended);
-
+    const PlacedShape shape(*half, star(random, 30, 0.4), {});
+    DistanceFieldQuery query = differences_of(shape);
+    check_differences(shape.oracle(), run_alone(*half, query));
+    check_format(*half, query, "R16G16_SFLOAT");
     // If half precision carries no information, the result says so.
     query.rectangle = {{-1.5, 30.0}, {1.5, 31.0}};
-    EXPECT_EQ(run_alone(*half, query).status.code(), StatusCode::invalid_query);
-    query.gradient = GradientMethod::central_differences;
     EXPECT_TRUE(run_alone(*half, query).status.ok());
+    query.gradient = GradientMethod::blended;
+    EXPECT_EQ(run_alone(*half, query).status.code(), StatusCode::invalid_query);
 }
 
 TEST_F(Gradients, SinglePrecisionCostsNearlyNothing) {
     Random random(gradient_seed);
     const PlacedShape shape(context(), star(random, 30, 0.4), {});
-    DistanceFieldQuery query;
-    query.technique = Technique::raster;
-    query.b = shape.instance();
-    query.tolerance = 0.01;
-    query.rectangle = {{-1.5, -1.5}, {1.5, 1.5}};
-    query.gradients = true;
-    query.gradient = GradientMethod::central_differences;
-    const auto differences = run_alone(context(), query);
-    query.gradient = GradientMethod::blended;
-    const auto blended = run_alone(context(), query);
-    ASSERT_TRUE(blended.status.ok()) << blended.status.text();
     const bool single = offers(host_device(), "blending of VK_FORMAT_R32G32_SFLOAT");
-    EXPECT_STREQ(blended.gradient_format, single ? "R32G32_SFLOAT" : "R16G16_SFLOAT");
-    check_blended(differences, blended);
-    record_cost(differences, blended);
-}
-
-/// Several tiles and tile batches: no seams.
-TEST_F(Gradients, HoldAcrossTilesAndRounds) {
-    Random random(gradient_seed + 7);
-    Settings settings;
-    settings.memory_limit = std::uint64_t{24} << 20U;  // a small atlas
-    Expected<Context> small = Context::create(host_device(), on_demand(settings));
-    ASSERT_TRUE(small.has_value()) << small.error().text();
-    const PlacedShape shape(*small, scaled_and_moved(star(random, 12, 0.3), 20.0, {}), {});
-    DistanceFieldQuery query;
-    query.technique = Technique::raster;
-    query.b = shape.instance();
-    query.tolerance = 0.02;
-    query.rectangle = {{-20.0, 3.0}, {20.0, 5.0}};
-    query.features = query.gradients = true;
-    const auto analytic = run_alone(*small, query);
-    ASSERT_TRUE(analytic.status.ok()) << analytic.status.text();
-    EXPECT_GT(analytic.width, 1400U);
-    check_cells(shape.oracle(), query, analytic, 5000);
-    query.features = false;
-    query.gradient = GradientMethod::central_differences;
-    const auto differences = run_alone(*small, query);
-    check_differences(shape.oracle(), differences);
-    query.gradient = GradientMethod::blended;
-    check_blended(differences, run_alone(*small, query));
+    check_format(context(), differences_of(shape), single ? "R32G32_SFLOAT" : "R16G16_SFLOAT");
 }
 
 /// A gradient on the boundary itself is the outward normal.

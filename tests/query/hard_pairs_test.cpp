@@ -1,9 +1,9 @@
 #include <tests/query/agreement.hpp>
 #include <tests/query/all_numbers.hpp>
 #include <tests/query/check.hpp>
+#include <tests/query/device_offers.hpp>
 #include <tests/query/field_laws.hpp>
 #include <tests/query/hard_pairs.hpp>
-#include <tests/query/scanline_reference.hpp>
 
 #include <algorithm>
 #include <array>
@@ -148,7 +148,7 @@ private:
         for (std::size_t i = 0; i < every_kind.size(); ++i) {
             const std::size_t at = intersections + i;
             check_intersection(answers.pair, every_kind[i], answers.get<IntersectionResult>(at));
-            if (grid_of(host_device()).steps == geometry::cpu_grid.steps) {
+            if (has_grid_of_cpu(host_device())) {
                 check_agreement({answers.pair, answers.queries[at]}, answers.found[at],
                                 by_technique_of(answers.found[at], answers.expected[at]));
             }

@@ -1,7 +1,6 @@
 #include <tests/oracle/boundary.hpp>
 #include <tests/oracle/overlap.hpp>
 #include <tests/query/check.hpp>
-#include <tests/query/corpus.hpp>
 #include <tests/query/query_test.hpp>
 
 #include <cmath>
@@ -11,53 +10,7 @@ namespace {
 
 constexpr std::uint64_t intersection_seed = 815;
 
-class Intersection : public QueryTest {
-protected:
-    static void check(Pair pair) {
-        const PlacedPair placed(context(), std::move(pair));
-        const CorpusKeeper keeper(placed.pair(), placed.tolerance());
-        SCOPED_TRACE(describe(placed.pair()));
-        for (const IntersectionKind kind : every_kind) {
-            IntersectionQuery query = placed.intersection(kind);
-            check_intersection(placed, kind, run_alone(context(), query));
-            query.technique = Technique::compute;
-            check_intersection(placed, kind, run_alone(context(), query));
-        }
-    }
-};
-
-TEST_F(Intersection, HoldsForRandomPairs) {
-    for_each_case(intersection_seed, 80, [&](Random& random) { check(any_pair(random)); });
-}
-
-TEST_F(Intersection, HoldsForEveryFamily) {
-    for (Pair& pair : family_pairs(intersection_seed)) {
-        check(std::move(pair));
-    }
-}
-
-TEST_F(Intersection, HoldsForIdenticalCopiesAndSharedEdges) {
-    Random random(intersection_seed);
-    const NamedRings shape{"star", star(random, 60, 0.5)};
-    check({shape, shape, {}, {}, 0.02});
-    const NamedRings left{"left", rectangle({-2, -1}, {0, 1})};
-    check({left, {"right", rectangle({0, -1}, {2, 1})}, {}, {}, 0.05});
-    check({left, {"over", rectangle({-1, -1}, {2, 1})}, {}, {}, 0.05});
-    check({left, {"within", rectangle({-1.5, -0.5}, {-0.5, 0.5})}, {}, {}, 0.05});
-}
-
-TEST_F(Intersection, HoldsAtExtremeScales) {
-    Random random(intersection_seed);
-    const Rings a = with_holes(random, 6);
-    const Rings b = scaled_and_moved(coast(random, 400, 0.5), 1.2, {0.6, -0.3});
-    for (const double factor : {1e-12, 1e-6, 1e6, 1e11}) {
-        check({{"A", scaled_and_moved(a, factor, {})},
-               {"B", scaled_and_moved(b, factor, {})},
-               {},
-               {},
-               0.02 * factor});
-    }
-}
+class Intersection : public QueryTest {};
 
 TEST_F(Intersection, AreaConvergesUnderRefinement) {
     Random random(intersection_seed);
@@ -113,24 +66,6 @@ TEST_F(Intersection, IsSymmetricUpToTheBound) {
             if (kind == IntersectionKind::volume_volume) {
                 EXPECT_EQ(ab.count, ba.count);
             }
-        }
-    }
-}
-
-TEST_F(Intersection, SummaryIsTheSameWithoutSamples) {
-    for (const Pair& pair : family_pairs(intersection_seed + 4)) {
-        const PlacedPair placed(context(), pair);
-        SCOPED_TRACE(describe(pair));
-        for (const IntersectionKind kind : every_kind) {
-            IntersectionQuery query = placed.intersection(kind);
-            const auto with = run_alone(context(), query);
-            query.summary_only = true;
-            const auto without = run_alone(context(), query);
-            ASSERT_TRUE(without.status.ok()) << without.status.text();
-            EXPECT_TRUE(without.samples.empty());
-            EXPECT_EQ(with.count, without.count);
-            EXPECT_EQ(with.area, without.area);
-            EXPECT_EQ(with.intersects, without.intersects);
         }
     }
 }

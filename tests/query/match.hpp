@@ -8,10 +8,19 @@
 
 namespace nearfield::test {
 
+/// Vertices of a boundary that meet in a point are told apart by their normals.
 template <class Record>
 void sort_by_point(std::vector<Record>& records) {
     std::stable_sort(records.begin(), records.end(), [](const Record& i, const Record& j) {
-        return std::tie(i.position.x, i.position.y) < std::tie(j.position.x, j.position.y);
+        const auto key = [](const Record& record) {
+            if constexpr (requires { record.normal; }) {
+                return std::tie(record.position.x, record.position.y, record.normal.x,
+                                record.normal.y);
+            } else {
+                return std::tie(record.position.x, record.position.y);
+            }
+        };
+        return key(i) < key(j);
     });
 }
 

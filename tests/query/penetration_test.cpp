@@ -1,6 +1,5 @@
 #include <tests/oracle/plane.hpp>
 #include <tests/query/check.hpp>
-#include <tests/query/corpus.hpp>
 #include <tests/query/query_test.hpp>
 
 #include <algorithm>
@@ -9,36 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-constexpr std::uint64_t penetration_seed = 4711;
-
-class Penetration : public QueryTest {
-protected:
-    static void check(Pair pair) {
-        const PlacedPair placed(context(), std::move(pair));
-        const CorpusKeeper keeper(placed.pair(), placed.tolerance());
-        SCOPED_TRACE(describe(placed.pair()));
-        for (const PenetrationPoints points : both_ways) {
-            check_penetration(placed, points, run_alone(context(), placed.penetration(points)));
-        }
-    }
-    /// Checks two shapes in world coordinates.
-    static void check(const Rings& a, const Rings& b, double tolerance) {
-        check(Pair{{"A", a}, {"B", b}, {}, {}, tolerance});
-    }
-};
-
-TEST_F(Penetration, HoldsForRandomPairs) {
-    for_each_case(penetration_seed, 150, [&](Random& random) { check(any_pair(random)); });
-}
-
-TEST_F(Penetration, HoldsForEveryFamily) {
-    for (const std::uint64_t round : {penetration_seed, penetration_seed + 6}) {
-        SCOPED_TRACE("seed " + std::to_string(round));
-        for (Pair& pair : family_pairs(round)) {
-            check(std::move(pair));
-        }
-    }
-}
+class Penetration : public QueryTest {};
 
 /// Queries in both directions share whether the shapes meet, but not with the batch before: its
 /// last query stood where the first of the other direction stands now.
@@ -92,58 +62,6 @@ TEST_F(Penetration, OfEquallyDeepPointsTheFirstIsTheDeepest) {
     }
 }
 
-TEST_F(Penetration, HoldsForLongCoasts) {
-    Random random(penetration_seed);
-    for (const int n : {5000, 20000}) {
-        SCOPED_TRACE(n);
-        const Rings a = coast(random, n, 0.5);
-        const Rings b = scaled_and_moved(coast(random, n / 2, 0.4), 1.5, {0.9, 0.4});
-        check(a, b, 0.01);
-        check(scaled_and_moved(a, 1.0, {1e6, -1e6}), scaled_and_moved(b, 1.0, {1e6, -1e6}), 0.01);
-    }
-}
-
-TEST_F(Penetration, HoldsForIdenticalCopiesAndSharedEdges) {
-    Random random(penetration_seed);
-    const Rings shape = star(random, 60, 0.5);
-    check(shape, shape, 0.02);
-    const Rings left = rectangle({-2, -1}, {0, 1});
-    check(left, rectangle({0, -1}, {2, 1}), 0.05);
-    check(left, rectangle({0, -0.3}, {2, 3}), 0.05);
-    check(left, rectangle({-1, -1}, {2, 1}), 0.05);  // overlapping, edges on one line
-    check(left, rectangle({-1.5, -0.5}, {-0.5, 0.5}), 0.05);
-    check(rectangle({-1.5, -0.5}, {-0.5, 0.5}), left, 0.05);
-}
-
-TEST_F(Penetration, HoldsForShapesSmallerThanACell) {
-    Random random(penetration_seed);
-    const Rings big = star(random, 30, 0.6);
-    check(scaled_and_moved(star(random, 9, 0.5), 1e-3, {0.1, 0.05}), big, 0.1);
-    check(big, scaled_and_moved(star(random, 9, 0.5), 1e-3, {0.1, 0.05}), 0.1);
-    check(big, big, 10.0);
-}
-
-TEST_F(Penetration, HoldsAtExtremeScales) {
-    Random random(penetration_seed);
-    const Rings a = with_holes(random, 6);
-    const Rings b = scaled_and_moved(coast(random, 400, 0.5), 1.2, {0.6, -0.3});
-    for (const double factor : {1e-12, 1e-6, 1e6, 1e11}) {
-        SCOPED_TRACE(factor);
-        check(scaled_and_moved(a, factor, {}), scaled_and_moved(b, factor, {}), 0.02 * factor);
-    }
-}
-
-TEST_F(Penetration, HoldsForAThousandParts) {
-    Random random(penetration_seed);
-    Rings parts;
-    for (int i = 0; i < 1000; ++i) {
-        const Vector2 place{0.06 * (i % 40) - 1.2, 0.1 * (i / 40) - 1.2};
-        parts.push_back(scaled_and_moved(star(random, 6, 0.5), 0.028, place)[0]);
-    }
-    check(parts, star(random, 30, 0.5), 0.01);
-    check(star(random, 30, 0.5), parts, 0.01);
-}
-
 TEST_F(Penetration, DepthOfARectangleIsPlain) {
     // The left side of A is 3 deep in B, nearest to B's right side; no other side is as near.
     const PlacedPair pair(
@@ -178,27 +96,6 @@ TEST_F(Penetration, DirectionsOnTheMedialAxisAreNotUnique) {
         }
     }
     EXPECT_GT(on_axis, 10);
-}
-
-TEST_F(Penetration, SummaryIsTheSameWithoutRecords) {
-    for (Pair& pair : family_pairs(penetration_seed + 2)) {
-        const PlacedPair placed(context(), std::move(pair));
-        SCOPED_TRACE(describe(placed.pair()));
-        for (const PenetrationPoints points : both_ways) {
-            PenetrationQuery query = placed.penetration(points);
-            const PenetrationResult with = run_alone(context(), query);
-            query.summary_only = true;
-            const PenetrationResult without = run_alone(context(), query);
-            ASSERT_TRUE(without.status.ok()) << without.status.text();
-            EXPECT_TRUE(without.points.empty());
-            EXPECT_EQ(with.count, without.count);
-            EXPECT_EQ(with.intersects, without.intersects);
-            if (with.count > 0) {
-                EXPECT_EQ(with.deepest.depth, without.deepest.depth);
-                EXPECT_EQ(with.deepest.position, without.deepest.position);
-            }
-        }
-    }
 }
 
 }  // namespace

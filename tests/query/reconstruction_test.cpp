@@ -25,10 +25,43 @@ protected:
         }
         return points;
     }
+    /// The points of a field by every technique and method, and its cells if these are asked for.
+    static void check(Context& context, const oracle::ShapeOracle& b, DistanceFieldQuery query,
+                      std::size_t max_cells = 1000) {
+        DistanceFieldResult differences;
+        for (const Technique technique : every_technique) {
+            for (const auto method : {GradientMethod::analytic, GradientMethod::central_differences,
+                                      GradientMethod::blended}) {
+                if (method == GradientMethod::blended && technique != Technique::raster) {
+                    continue;
+                }
+                SCOPED_TRACE(to_string(technique));
+                query.technique = technique;
+                query.gradient = method;
+                const DistanceFieldResult result = run_alone(context, query);
+                check_points(b, query, result);
+                if (!query.gradients) {
+                    continue;
+                }
+                if (method == GradientMethod::analytic) {
+                    check_cells(b, query, result, max_cells);
+                    continue;
+                }
+                check_differences(b, result, max_cells);
+                if (method == GradientMethod::blended) {
+                    check_blended(differences, result);
+                } else {  // two errors over two cells
+                    EXPECT_DOUBLE_EQ(result.gradient_error_bound, result.error_bound / result.cell);
+                    differences = result;
+                }
+            }
+        }
+    }
 };
 
+/// With features and gradients of all cells, or points alone.
 TEST_F(Reconstruction, HoldsForRandomShapesByEveryMethodAndEncoding) {
-    const int cases = random_cases(60);
+    const int cases = random_cases(40);
     for (int i = 0; i < cases; ++i) {
         SCOPED_TRACE("seed " + std::to_string(reconstruction_seed) + " case " + std::to_string(i));
         Random random(reconstruction_seed + static_cast<std::uint64_t>(i));
@@ -37,39 +70,33 @@ TEST_F(Reconstruction, HoldsForRandomShapesByEveryMethodAndEncoding) {
         DistanceFieldQuery query = field.query();
         const auto points = any_points(random, field.rectangle(), 40);
         query.points = points;
-        query.values = i % 2 == 0;
+        query.values = query.features = query.gradients = i % 4 != 0;
         query.sign = static_cast<SignEncoding>(i % 3);
-        query.gradient = static_cast<GradientMethod>(i / 3 % 3);
-        check_points(field.oracle(), query, run_alone(context(), query));
-        if (query.gradient != GradientMethod::blended) {
-            query.technique = Technique::cpu;
-            check_points(field.oracle(), query, run_alone(context(), query));
-        }
+        check(context(), field.oracle(), query);
     }
 }
 
 TEST_F(Reconstruction, HoldsForEveryFamilyAndRealOutlines) {
     Random random(reconstruction_seed);
-    const auto check = [&](const Rings& rings, double tolerance, const Rectangle& box) {
-        const PlacedShape shape(context(), rings, {});
+    const auto check_over = [&](const Rings& rings, double tolerance, const Rectangle& box,
+                                const Pose& pose) {
+        const PlacedShape shape(context(), rings, pose);
         DistanceFieldQuery query;
         query.b = shape.instance();
         query.tolerance = tolerance;
         query.rectangle = box;
-        query.values = false;
-        const auto points = any_points(random, box, 200);
+        query.values = query.features = query.gradients = pose.angle != 0.0;
+        const auto points = any_points(random, box, 100);
         query.points = points;
-        check_points(shape.oracle(), query, run_alone(context(), query));
-        query.technique = Technique::cpu;
-        check_points(shape.oracle(), query, run_alone(context(), query));
+        check(context(), shape.oracle(), query);
     };
     for (const auto& [name, rings] : every_family(reconstruction_seed)) {
         SCOPED_TRACE(name);
-        check(rings, 0.04, {{-1.2, -1.2}, {1.2, 1.2}});
+        check_over(rings, 0.04, {{-1.2, -1.2}, {1.2, 1.2}}, {});
+        check_over(rings, 0.03, {{-1.0, -1.5}, {2.0, 1.0}}, {{0.5, -0.25}, 0.9});
     }
     const Rings iceland = read_outline(NEARFIELD_TEST_DATA "/iceland_10m.geojson").rings;
-    const oracle::ShapeOracle outline(iceland, {});
-    check(iceland, 2.0, outline.box());
+    check_over(iceland, 2.0, oracle::ShapeOracle(iceland, {}).box(), {});
 }
 
 /// Cells in which two fields differ: in sign, or in any member.
@@ -151,8 +178,19 @@ TEST_F(Reconstruction, HoldsInOneBatchWithEverything) {
     const Rectangle box{{-1, -1}, {1, 1}};
     const auto points = any_points(random, box, 50);
     Batch batch;
-    const auto penetration = batch.add(pair.penetration());
-    const auto intersection = batch.add(pair.intersection(IntersectionKind::volume_volume));
+    std::vector<QueryHandle<PenetrationQuery>> penetrations;
+    std::vector<QueryHandle<IntersectionQuery>> intersections;
+    std::vector<QueryHandle<ContactQuery>> contacts;
+    for (const Technique technique : every_technique) {
+        PenetrationQuery penetration = pair.penetration();
+        IntersectionQuery intersection = pair.intersection(IntersectionKind::boundary_volume);
+        ContactQuery by_gradient = pair.contacts(0.08);
+        penetration.technique = intersection.technique = by_gradient.technique = technique;
+        by_gradient.normals = ContactNormals::gradient;
+        penetrations.push_back(batch.add(penetration));
+        intersections.push_back(batch.add(intersection));
+        contacts.push_back(batch.add(by_gradient));
+    }
     std::vector<DistanceFieldQuery> fields;
     for (int i = 0; i < 9; ++i) {
         DistanceFieldQuery query;
@@ -177,8 +215,14 @@ TEST_F(Reconstruction, HoldsInOneBatchWithEverything) {
     Results results;
     for (int run = 0; run < 2; ++run) {
         ASSERT_TRUE(context().run(batch, results).ok());
-        check_penetration(pair, PenetrationPoints::boundary, results[penetration]);
-        check_intersection(pair, IntersectionKind::volume_volume, results[intersection]);
+        for (std::size_t i = 0; i < contacts.size(); ++i) {
+            EXPECT_EQ(results[intersections[i]].technique, every_technique[i]);
+            check_penetration(pair, PenetrationPoints::boundary, results[penetrations[i]]);
+            check_intersection(pair, IntersectionKind::boundary_volume, results[intersections[i]]);
+            EXPECT_TRUE(results[contacts[i]].status.ok()) << results[contacts[i]].status.text();
+            EXPECT_EQ(results[contacts[i]].count, results[contacts.front()].count);
+            EXPECT_GT(results[contacts[i]].count, 0U);
+        }
         for (std::size_t i = 0; i < fields.size(); ++i) {
             SCOPED_TRACE(i);
             const DistanceFieldResult& result = results[handles[i]];
@@ -265,31 +309,26 @@ TEST_F(Reconstruction, TechniquesAgreeAtPoints) {
     }
 }
 
-/// Several tiles and tile batches, points everywhere, and points in only some tiles.
+/// Several tiles and tile batches without seams, points everywhere, and points in only some tiles.
 TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
     Random random(reconstruction_seed);
     Settings settings;
-    settings.memory_limit = std::uint64_t{24} << 20U;
+    settings.memory_limit = std::uint64_t{24} << 20U;  // a small atlas
     Expected<Context> small = Context::create(host_device(), on_demand(settings));
     ASSERT_TRUE(small.has_value()) << small.error().text();
     const PlacedShape shape(*small, scaled_and_moved(star(random, 12, 0.3), 20.0, {}), {});
-    const Rectangle box{{-20.0, 3.0}, {20.0, 5.0}};
-    for (const auto method :
-         {GradientMethod::analytic, GradientMethod::central_differences, GradientMethod::blended}) {
-        DistanceFieldQuery query;
-        query.technique = Technique::raster;
-        query.b = shape.instance();
-        query.tolerance = 0.02;
-        query.rectangle = box;
-        query.values = false;
-        query.gradient = method;
-        auto points = any_points(random, box, 500);
-        query.points = points;
-        check_points(shape.oracle(), query, run_alone(*small, query));
-        points.erase(points.begin(), points.end() - 2);
-        query.points = points;
-        check_points(shape.oracle(), query, run_alone(*small, query));
-    }
+    DistanceFieldQuery query;
+    query.b = shape.instance();
+    query.tolerance = 0.02;
+    query.rectangle = {{-20.0, 3.0}, {20.0, 5.0}};
+    const auto points = any_points(random, *query.rectangle, 500);
+    query.points = points;
+    query.features = query.gradients = true;
+    check(*small, shape.oracle(), query, 3000);
+    query.features = query.gradients = query.values = false;
+    check(*small, shape.oracle(), query);
+    query.points = std::span(points).last(2);
+    check(*small, shape.oracle(), query);
 }
 
 /// Beside a long wall, two points that lie alike between their cells. A thousand away, single

@@ -196,27 +196,5 @@ TEST_F(ContainmentQueries, OfOutlines) {
     }
 }
 
-TEST_F(ContainmentQueries, RefuseWhatTheyCannotUse) {
-    const PlacedPair pair(
-        context(),
-        {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 0.1});
-    for (const Technique technique : device_techniques) {
-        const Status status =
-            run_alone(context(), ContainmentQuery{pair.instance_a(), pair.instance_b(), technique})
-                .status;
-        EXPECT_EQ(status.code(), StatusCode::invalid_query);
-        EXPECT_NE(status.message().find(std::string(to_string(technique)) +
-                                        " does not answer containment"),
-                  std::string::npos)
-            << status.text();
-    }
-    ContainmentQuery query{pair.instance_a(), pair.instance_b(), Technique::cpu};
-    EXPECT_TRUE(run_alone(context(), query).inside);
-    query.b.pose.translation.y = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
-    query.b = {};
-    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::unknown_shape);
-}
-
 }  // namespace
 }  // namespace nearfield::test

@@ -24,13 +24,10 @@ bool are_alike(const PointData& a, const PointData& b) {
 
 TEST_F(DevicePairPartsForHosts, AreRecordedWithRoomForWhatTheyFound) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(device_pair_parts_for_hosts_seed);
-    add_crowd(random, 200, 2.5);
+    make_crowd(device_pair_parts_for_hosts_seed, 200, 2.5);
     const PenetrationQuery query{.tolerance = 0.02};
-    const int dispatches = dispatches_of_a_part(query);
-    PairTable<PenetrationQuery> whole(query, on_device);
+    auto [whole, in_parts, dispatches] = tables_of(query);
     ASSERT_TRUE(world().update(whole).ok());
-    PairTable<PenetrationQuery> in_parts(query, on_device);
     test_support::HostFrames frames(host_device(), 1);
     Status status;
     std::uint64_t frame = 0;
@@ -57,16 +54,13 @@ TEST_F(DevicePairPartsForHosts, AreRecordedWithRoomForWhatTheyFound) {
 /// The parts follow one another.
 TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(device_pair_parts_for_hosts_seed + 1);
-    add_crowd(random, 140, 3.0);
+    make_crowd(device_pair_parts_for_hosts_seed + 1, 140, 3.0);
     for (const bool records : {true, false}) {
         const PenetrationQuery query{.tolerance = 0.05,
                                      .points = PenetrationPoints::vertices,
                                      .summary_only = !records,
                                      .on_device = true};
-        const int dispatches = dispatches_of_a_part(query);
-        PairTable<PenetrationQuery> whole(query, on_device);
-        PairTable<PenetrationQuery> in_parts(query, on_device);
+        auto [whole, in_parts, dispatches] = tables_of(query);
         ASSERT_TRUE(world().update(whole).ok());
         const Status status = small_world().update(in_parts);
         ASSERT_TRUE(status.ok()) << status.text();
@@ -88,12 +82,9 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
 /// Each part has all records that its rows name, whose instances may be those of other parts.
 TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(device_pair_parts_for_hosts_seed + 2);
-    add_crowd(random, 60, 2.0);
+    make_crowd(device_pair_parts_for_hosts_seed + 2, 60, 2.0);
     const ContactQuery query{.tolerance = 0.1, .contact_distance = 0.05, .on_device = true};
-    const int dispatches = dispatches_of_a_part(query);
-    PairTable<ContactQuery> whole(query, on_device);
-    PairTable<ContactQuery> in_parts(query, on_device);
+    auto [whole, in_parts, dispatches] = tables_of(query);
     ASSERT_TRUE(world().update(whole).ok());
     const Status status = small_world().update(in_parts);
     ASSERT_TRUE(status.ok()) << status.text();
@@ -124,8 +115,7 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSameContactsOnTheDevice) {
 /// The host's shaders have to reach all that stays.
 TEST_F(DevicePairPartsForHosts, RefuseWhatTheHostCannotReach) {
     ASSERT_NO_FATAL_FAILURE(make_small(little));
-    Random random(device_pair_parts_for_hosts_seed + 3);
-    add_crowd(random, 250, 2.5);
+    make_crowd(device_pair_parts_for_hosts_seed + 3, 250, 2.5);
     PairTable<PenetrationQuery> table({.tolerance = 0.02, .on_device = true}, on_device);
     const Status status = small_world().update(table);
     EXPECT_EQ(status.code(), StatusCode::too_large) << status.text();

@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint64_t device_pair_parts_seed = 31000;
 /// Of a buffer: as far as a few thousand pairs of stars.
 constexpr std::uint32_t little_memory = 1U << 20U;
+constexpr PenetrationQuery summaries{.tolerance = 0.02, .summary_only = true};
 
 class DevicePairParts : public DevicePairPartsTest {
 protected:
@@ -43,9 +44,7 @@ protected:
         ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
         Random random(device_pair_parts_seed);
         add_crowd(random, stars, 3.0);
-        const int dispatches = dispatches_of_a_part(query);
-        PairTable<Query> whole = table_of(query);
-        PairTable<Query> in_parts = table_of(query);
+        auto [whole, in_parts, dispatches] = tables_of(query, within(0.05, on_device));
         for (std::size_t frame = 0; frame < 2; ++frame) {
             SCOPED_TRACE("frame " + std::to_string(frame));
             ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
@@ -67,7 +66,7 @@ TEST_F(DevicePairParts, FindTheSameVertices) {
 }
 
 TEST_F(DevicePairParts, FindTheSameSummaries) {
-    expect_the_same_in_parts(PenetrationQuery{.tolerance = 0.02, .summary_only = true}, 250, 3);
+    expect_the_same_in_parts(summaries, 250, 3);
 }
 
 /// A pair needs both directions, which may be in different parts.
@@ -101,14 +100,12 @@ TEST_F(DevicePairParts, FindTheSameAmongAllShapes) {
     add_to_both(add_shape_to_both(rectangle({-1e9, -1.0}, {1e9, 1.0})), {});
     const PenetrationQuery points{.tolerance = 0.02, .points = PenetrationPoints::vertices};
     const ContactQuery near{.tolerance = 0.05, .contact_distance = 0.1, .summary_only = true};
-    PairTable<PenetrationQuery> whole(points, on_device);
-    PairTable<PenetrationQuery> in_parts(points, on_device);
-    PairTable<ContactQuery> contacts(near, on_device);
-    PairTable<ContactQuery> contacts_in_parts(near, on_device);
+    auto penetrations = tables_of(points);
+    auto contacts = tables_of(near);
     for (int frame = 0; frame < 2; ++frame) {
-        ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
-        ASSERT_NO_FATAL_FAILURE(compare(contacts, contacts_in_parts));
-        EXPECT_GT(in_parts.left_to_cpu(), 0U);
+        ASSERT_NO_FATAL_FAILURE(compare(penetrations.whole, penetrations.in_parts));
+        ASSERT_NO_FATAL_FAILURE(compare(contacts.whole, contacts.in_parts));
+        EXPECT_GT(penetrations.in_parts.left_to_cpu(), 0U);
         ASSERT_NO_FATAL_FAILURE(move_all(random, 3.0));
     }
 }
@@ -119,14 +116,10 @@ class DivisionOfPairs : public DevicePairParts {};
 /// Few of the instances have most of the pairs.
 TEST_F(DivisionOfPairs, AreDividedWhereThePairsAre) {
     ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
-    Random random(device_pair_parts_seed + 2);
-    add_crowd(random, 60, 40.0);
+    Random random = make_crowd(device_pair_parts_seed + 2, 60, 40.0);
     add_crowd(random, 120, 1.0);
     add_crowd(random, 200, 40.0);
-    const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
-    const int dispatches = dispatches_of_a_part(query);
-    PairTable<PenetrationQuery> whole(query, on_device);
-    PairTable<PenetrationQuery> in_parts(query, on_device);
+    auto [whole, in_parts, dispatches] = tables_of(summaries);
     ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
     EXPECT_GE(parts(dispatches), 3);
 }
@@ -135,10 +128,7 @@ TEST_F(DivisionOfPairs, AreDividedWhereThePairsAre) {
 TEST_F(DivisionOfPairs, FollowTheInstances) {
     ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
     Random random(device_pair_parts_seed + 3);
-    const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
-    const int dispatches = dispatches_of_a_part(query);
-    PairTable<PenetrationQuery> whole(query, on_device);
-    PairTable<PenetrationQuery> in_parts(query, on_device);
+    auto [whole, in_parts, dispatches] = tables_of(summaries);
     for (const int count : {200, 30, 220, 3}) {
         SCOPED_TRACE(count);
         while (size_of_both() > static_cast<std::size_t>(count)) {
@@ -155,12 +145,8 @@ TEST_F(DivisionOfPairs, FollowTheInstances) {
 /// What has moved apart is searched at once again.
 TEST_F(DivisionOfPairs, AreJoinedWherePairsAreFew) {
     ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
-    Random random(device_pair_parts_seed + 4);
-    add_crowd(random, 250, 2.0);
-    const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
-    const int dispatches = dispatches_of_a_part(query);
-    PairTable<PenetrationQuery> whole(query, on_device);
-    PairTable<PenetrationQuery> in_parts(query, on_device);
+    Random random = make_crowd(device_pair_parts_seed + 4, 250, 2.0);
+    auto [whole, in_parts, dispatches] = tables_of(summaries);
     ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
     const int most = parts(dispatches);
     EXPECT_GE(most, 4);
@@ -176,11 +162,8 @@ TEST_F(DivisionOfPairs, AreJoinedWherePairsAreFew) {
 
 TEST_F(DivisionOfPairs, MakeNothingInASteadyState) {
     ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
-    Random random(device_pair_parts_seed + 5);
-    add_crowd(random, 200, 2.5);
-    const PenetrationQuery query{.tolerance = 0.02};
-    const int dispatches = dispatches_of_a_part(query);
-    PairTable<PenetrationQuery> table(query, on_device);
+    Random random = make_crowd(device_pair_parts_seed + 5, 200, 2.5);
+    auto [whole, table, dispatches] = tables_of(PenetrationQuery{.tolerance = 0.02});
     std::vector<Pose> poses;
     for (std::size_t i = 0; i < size_of_both(); ++i) {
         poses.push_back(any_pose(random, 2.5));
@@ -213,12 +196,8 @@ TEST_F(DivisionOfPairs, KeepToTheLimitOfMemory) {
     Settings settings;
     settings.memory_limit = 6U << 20U;
     ASSERT_NO_FATAL_FAILURE(make_small(1U << 27U, settings));
-    Random random(device_pair_parts_seed + 6);
-    add_crowd(random, 250, 2.0);
-    const PenetrationQuery query{.tolerance = 0.02, .summary_only = true};
-    const int dispatches = dispatches_of_a_part(query);
-    PairTable<PenetrationQuery> whole(query, on_device);
-    PairTable<PenetrationQuery> in_parts(query, on_device);
+    make_crowd(device_pair_parts_seed + 6, 250, 2.0);
+    auto [whole, in_parts, dispatches] = tables_of(summaries);
     ASSERT_NO_FATAL_FAILURE(compare(whole, in_parts));
     EXPECT_GE(parts(dispatches), 2);
     PairTable<PenetrationQuery> too_large({.tolerance = 0.001}, on_device);
@@ -232,8 +211,7 @@ TEST_F(DivisionOfPairs, KeepToTheLimitOfMemory) {
 /// More points of one instance than buffers can hold.
 TEST_F(DivisionOfPairs, RefuseWhatOneInstanceHasTooMuchOf) {
     ASSERT_NO_FATAL_FAILURE(make_small(little_memory));
-    Random random(device_pair_parts_seed + 7);
-    add_crowd(random, 10, 0.5);
+    make_crowd(device_pair_parts_seed + 7, 10, 0.5);
     PairTable penetrations(PenetrationQuery{.tolerance = 1e-5}, on_device);
     PairTable contacts(ContactQuery{.tolerance = 1e-5, .contact_distance = 1.0}, on_device);
     for (PairTableBase* const table :
@@ -252,8 +230,7 @@ TEST_F(DivisionOfPairs, AreTimedTogether) {
     Settings settings;
     settings.timestamps = true;
     ASSERT_NO_FATAL_FAILURE(make_small(little_memory, settings));
-    Random random(device_pair_parts_seed + 8);
-    add_crowd(random, 200, 2.0);
+    make_crowd(device_pair_parts_seed + 8, 200, 2.0);
     PairTable<PenetrationQuery> table({.tolerance = 0.02}, on_device);
     ASSERT_TRUE(small_world().update(table).ok());
     EXPECT_EQ(table.timings().passes.size(), 12U);

@@ -119,21 +119,5 @@ TEST_F(IntersectionTest, OutlinesTouchWhereTheyAreMovedToTheirSeparation) {
     }
 }
 
-TEST_F(IntersectionTest, RefusesWhatItCannotUse) {
-    const PlacedPair pair(
-        context(),
-        {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 0.1});
-    IntersectionTestQuery query{pair.instance_a(), pair.instance_b(), Technique::raster};
-    const Status status = run_alone(context(), query).status;
-    EXPECT_EQ(status.code(), StatusCode::invalid_query);
-    EXPECT_NE(status.message().find("raster"), std::string::npos) << status.text();
-    query.technique = Technique::cpu;
-    EXPECT_TRUE(run_alone(context(), query).intersects);
-    query.a.pose.angle = std::nan("");
-    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
-    query.a = {};
-    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::unknown_shape);
-}
-
 }  // namespace
 }  // namespace nearfield::test

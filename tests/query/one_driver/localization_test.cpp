@@ -1,6 +1,5 @@
 #include <tests/query/check.hpp>
 #include <tests/query/query_test.hpp>
-#include <tests/support/degenerate_polygons.hpp>
 
 namespace nearfield::test {
 namespace {
@@ -17,15 +16,21 @@ TEST_F(Localization, NoSettingChangesWhatIsTrue) {
             auto made = Context::create(host_device(), on_demand(settings));
             ASSERT_TRUE(made.has_value()) << made.error().text();
             const std::uint64_t seed = 40 + height;
+            std::vector<Pair> pairs = family_pairs(seed);
             Random random(seed);
             for (int i = 0; i < random_cases(3); ++i) {
-                SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(i));
-                const PlacedPair pair(*made, any_pair(random));
-                check_penetration(pair, PenetrationPoints::boundary,
-                                  run_alone(*made, pair.penetration()));
-                for (const auto kind :
-                     {IntersectionKind::volume_volume, IntersectionKind::boundary_volume,
-                      IntersectionKind::boundary_boundary}) {
+                pairs.push_back(any_pair(random));
+            }
+            for (Pair& one : pairs) {
+                SCOPED_TRACE("height " + std::to_string(height) + '\n' + describe(one));
+                const double near = 2.0 * one.tolerance;
+                const PlacedPair pair(*made, std::move(one));
+                for (const PenetrationPoints points : both_ways) {
+                    check_penetration(pair, points, run_alone(*made, pair.penetration(points)));
+                }
+                check_contacts(pair, near, run_alone(*made, pair.contacts(near)));
+                check_separation(pair, run_alone(*made, pair.separation()));
+                for (const IntersectionKind kind : every_kind) {
                     check_intersection(pair, kind, run_alone(*made, pair.intersection(kind)));
                 }
             }

@@ -2,8 +2,11 @@
 #include <tests/query/query_test.hpp>
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
-#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
 
 namespace nearfield::test {
 namespace {
@@ -18,63 +21,125 @@ protected:
     }
 
     /// Runs queries that must be rejected between two valid ones, which must be answered.
-    template <class Query>
-    void expect_refused(const std::vector<Query>& bad, StatusCode code) {
+    void expect_refused(const std::vector<AnyQuery>& bad, StatusCode code,
+                        const std::string& words = {}) {
         Batch batch;
         const auto first = batch.add(pair_.penetration());
-        std::vector<QueryHandle<Query>> handles;
-        for (const Query& query : bad) {
-            handles.push_back(batch.add(query));
+        for (const AnyQuery& any : bad) {
+            std::visit([&](const auto& query) { batch.add(query); }, any);
         }
         const auto last = batch.add(pair_.intersection(IntersectionKind::volume_volume));
         Results results;
         const Status status = context().run(batch, results);
         ASSERT_TRUE(status.ok()) << status.text();
         for (std::size_t i = 0; i < bad.size(); ++i) {
-            const Status& refused = results[handles[i]].status;
+            SCOPED_TRACE("kind " + std::to_string(bad[i].index()));
+            const Status refused = std::visit([](const auto& result) { return result.status; },
+                                              results.results[1 + i]);
             EXPECT_EQ(refused.code(), code) << "query " << i << ": " << refused.text();
             EXPECT_FALSE(refused.message().empty()) << "query " << i;
+            EXPECT_NE(refused.message().find(words), std::string::npos) << refused.text();
         }
         check_penetration(pair_, PenetrationPoints::boundary, results[first]);
         check_intersection(pair_, IntersectionKind::volume_volume, results[last]);
+    }
+    /// The same for each kind of query that `spoil` applies to.
+    template <class Spoil>
+    void expect_each_refused(const Spoil& spoil, StatusCode code, const std::string& words = {}) {
+        const Instance a = pair_.instance_a();
+        const Instance b = pair_.instance_b();
+        std::vector<AnyQuery> bad;
+        for (AnyQuery any : std::initializer_list<AnyQuery>{
+                 pair_.penetration(), pair_.intersection(IntersectionKind::boundary_volume),
+                 DistanceFieldQuery{a, b, 0.1, std::nullopt}, pair_.contacts(0.1),
+                 pair_.separation(), pair_.closest_point(), IntersectionTestQuery{a, b},
+                 TimeOfImpactQuery{a, b, {{5.0, 0.0}, 0.0}, {}, 0.1},
+                 SeparationVectorQuery{a, b, 0.1}, ContainmentQuery{a, b}}) {
+            std::visit(
+                [&](auto& query) {
+                    if constexpr (requires { spoil(query); }) {
+                        spoil(query);
+                        bad.push_back(any);
+                    }
+                },
+                any);
+        }
+        ASSERT_FALSE(bad.empty());
+        expect_refused(bad, code, words);
     }
 
     PlacedPair pair_;
 };
 
 TEST_F(Refusal, OfTolerances) {
-    std::vector<PenetrationQuery> penetrations;
-    std::vector<IntersectionQuery> intersections;
-    std::vector<DistanceFieldQuery> fields;
     for (const double tolerance : {0.0, -1.0, not_a_number, infinity, -infinity}) {
-        penetrations.push_back(pair_.penetration());
-        penetrations.back().tolerance = tolerance;
-        intersections.push_back(pair_.intersection(IntersectionKind::boundary_volume));
-        intersections.back().tolerance = tolerance;
-        fields.push_back({pair_.instance_a(), pair_.instance_b(), tolerance, std::nullopt});
+        expect_each_refused(
+            [=](auto& query) requires requires { query.tolerance; } {
+                query.tolerance = tolerance;
+            },
+            StatusCode::invalid_query, "tolerance");
     }
-    expect_refused(penetrations, StatusCode::invalid_query);
-    expect_refused(intersections, StatusCode::invalid_query);
-    expect_refused(fields, StatusCode::invalid_query);
 }
 
 TEST_F(Refusal, OfPoses) {
-    std::vector<PenetrationQuery> queries(6, pair_.penetration());
-    queries[0].a.pose.translation.x = not_a_number;
-    queries[1].b.pose.translation.y = infinity;
-    queries[2].a.pose.angle = not_a_number;
-    queries[3].b.pose.angle = -infinity;
-    queries[4].b.pose.translation.x = not_a_number;
-    queries[5].a.pose.translation.y = -infinity;
-    expect_refused(queries, StatusCode::invalid_query);
+    for (const double bad : {not_a_number, infinity, -infinity, 1e300}) {
+        const auto refuse = [&](const auto& spoil) {
+            expect_each_refused(spoil, StatusCode::invalid_query);
+        };
+        refuse([=](auto& query) { query.a.pose.translation.x = bad; });
+        refuse([=](auto& query) { query.b.pose.translation.y = bad; });
+        if (bad != 1e300) {  // an angle of any size
+            refuse([=](auto& query) { query.a.pose.angle = bad; });
+            refuse([=](auto& query) { query.b.pose.angle = bad; });
+        }
+    }
+}
+
+TEST_F(Refusal, OfContactDistances) {
+    for (const double distance : {-1.0, not_a_number, infinity}) {
+        expect_each_refused(
+            [=](auto& query) requires requires { query.contact_distance; } {
+                query.contact_distance = distance;
+            },
+            StatusCode::invalid_query, "contact distance");
+    }
+    expect_refused({pair_.contacts(0.0)}, StatusCode::invalid_query, "contact distance");
+}
+
+TEST_F(Refusal, OfUnknownShapes) {
+    const auto refuse = [&](const auto& spoil) {
+        expect_each_refused(spoil, StatusCode::unknown_shape);
+    };
+    refuse([](auto& query) { query.a.shape.generation += 1000; });
+    refuse([](auto& query) { query.b.shape = {}; });
+    refuse([](auto& query) { query.b.shape.generation += 1000; });
+    // Neither A nor a rectangle determines the area of the field.
+    const DistanceFieldQuery field{{}, pair_.instance_b(), 0.1, std::nullopt};
+    EXPECT_FALSE(run_alone(context(), field).status.ok());
+}
+
+TEST_F(Refusal, OfTechniquesThatDoNotAnswer) {
+    for (const Technique technique : device_techniques) {
+        const auto refuse = [&]<class Query>(Query query, const std::string& what) {
+            query.a = pair_.instance_a();
+            query.b = pair_.instance_b();
+            query.technique = technique;
+            expect_refused({query}, StatusCode::invalid_query,
+                           std::string(to_string(technique)) + " does not answer " + what);
+        };
+        refuse(IntersectionTestQuery{}, "intersection tests");
+        refuse(TimeOfImpactQuery{.tolerance = 0.1}, "times of impact");
+        refuse(SeparationVectorQuery{.tolerance = 0.1}, "separation vectors");
+        refuse(ContainmentQuery{}, "containment");
+    }
 }
 
 TEST_F(Refusal, OfRectangles) {
-    std::vector<DistanceFieldQuery> queries;
+    std::vector<AnyQuery> queries;
     for (const Rectangle& rectangle :
          {Rectangle{{1, 0}, {0, 1}}, Rectangle{{0, 1}, {1, 0}},
           Rectangle{{not_a_number, 0}, {1, 1}}, Rectangle{{0, 0}, {1, infinity}}}) {
-        queries.push_back({{}, pair_.instance_b(), 0.1, rectangle});
+        queries.emplace_back(DistanceFieldQuery{{}, pair_.instance_b(), 0.1, rectangle});
     }
     expect_refused(queries, StatusCode::invalid_query);
 }
@@ -82,7 +147,7 @@ TEST_F(Refusal, OfRectangles) {
 TEST_F(Refusal, OfFieldsThatAskForNothing) {
     DistanceFieldQuery query{{}, pair_.instance_b(), 0.1, Rectangle{{0, 0}, {1, 1}}};
     query.values = false;
-    expect_refused(std::vector{query}, StatusCode::invalid_query);
+    expect_refused({query}, StatusCode::invalid_query);
     EXPECT_NE(run_alone(context(), query).status.message().find("asks for nothing"),
               std::string::npos);
 }
@@ -93,7 +158,7 @@ TEST_F(Refusal, OfPointsOutsideTheField) {
         const std::vector<Vector2> points{{0.5, 0.5}, bad};
         DistanceFieldQuery query{{}, pair_.instance_b(), 0.1, Rectangle{{0, 0}, {1, 1}}};
         query.points = points;
-        expect_refused(std::vector{query}, StatusCode::invalid_query);
+        expect_refused({query}, StatusCode::invalid_query);
         const DistanceFieldResult result = run_alone(context(), query);
         EXPECT_NE(result.status.message().find("point 1"), std::string::npos)
             << result.status.text();
@@ -119,20 +184,6 @@ TEST_F(Refusal, OfFieldsThatNeedTooMuch) {
     query.technique = Technique::raster;
     query.points = points;
     EXPECT_EQ(run_alone(*small, query).status.code(), StatusCode::too_large);
-}
-
-TEST_F(Refusal, OfUnknownShapes) {
-    std::vector<PenetrationQuery> queries(3, pair_.penetration());
-    queries[0].a.shape = {};
-    queries[1].b.shape = {};
-    queries[2].b.shape.generation += 1000;
-    expect_refused(queries, StatusCode::unknown_shape);
-    // Neither A nor a rectangle determines the area of the field.
-    Batch batch;
-    const auto field = batch.add(DistanceFieldQuery{{}, pair_.instance_b(), 0.1, std::nullopt});
-    Results results;
-    ASSERT_TRUE(context().run(batch, results).ok());
-    EXPECT_FALSE(results[field].status.ok());
 }
 
 TEST_F(Refusal, OfShapes) {

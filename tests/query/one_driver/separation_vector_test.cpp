@@ -156,39 +156,6 @@ TEST_F(SeparationVectorTest, HoldsForDegeneratePolygons) {
     EXPECT_GE(intersect, 3);
 }
 
-TEST_F(SeparationVectorTest, NoShorterOneIsFoundByForce) {
-    int within = 0;
-    constexpr int cases = 12;
-    for_each_case(separation_vector_seed + 900, cases, [&](Random& random) {
-        const auto shape = [&] {
-            return random.whole(0, 1) == 0 ? star(random, random.whole(5, 12), 0.3)
-                                           : with_holes(random, 2);
-        };
-        const Pair pair{{"A", shape()},
-                        {"B", shape()},
-                        {{random.between(-0.5, 0.5), random.between(-0.5, 0.5)}, 0.0},
-                        {},
-                        0.02};
-        const SeparationVectorResult result = check(pair, random, 0);
-        if (!result.intersects) {
-            return;
-        }
-        // Every translation of a dense grid that is shorter by more than this.
-        constexpr int side = 40;
-        const double shorter = 0.97 * result.length;
-        for (int i = -side; i <= side; ++i) {
-            for (int j = -side; j <= side; ++j) {
-                const Vector2 by{shorter * i / side, shorter * j / side};
-                if (oracle::length(by) < shorter) {
-                    EXPECT_TRUE(meet_after(pair, by)) << by.x << ", " << by.y << " is shorter";
-                }
-            }
-        }
-        within += result.length - result.lower_bound <= 0.25 * result.length ? 1 : 0;
-    });
-    EXPECT_GE(within, random_cases(cases) / 2);
-}
-
 TEST_F(SeparationVectorTest, KnownWays) {
     Random random(separation_vector_seed);
     const Rings square = rectangle({-1, -1}, {1, 1});
@@ -266,31 +233,6 @@ TEST_F(SeparationVectorTest, LawsOfSymmetry) {
         }
         expect_same(ask(pair), "seen from elsewhere");
     });
-}
-
-TEST_F(SeparationVectorTest, RefusesWhatItCannotUse) {
-    const PlacedPair pair(
-        context(),
-        {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 0.1});
-    SeparationVectorQuery query{pair.instance_a(), pair.instance_b(), 0.1};
-    query.technique = Technique::raster;
-    Status status = run_alone(context(), query).status;
-    EXPECT_EQ(status.code(), StatusCode::invalid_query);
-    EXPECT_NE(status.message().find("raster does not answer separation vectors"), std::string::npos)
-        << status.text();
-    query.technique = Technique::cpu;
-    EXPECT_NEAR(run_alone(context(), query).length, 1.0, 1e-12);
-    query.tolerance = -1.0;
-    status = run_alone(context(), query).status;
-    EXPECT_NE(status.message().find("tolerance"), std::string::npos) << status.text();
-    query.tolerance = 1e-15;
-    status = run_alone(context(), query).status;
-    EXPECT_NE(status.message().find("double precision"), std::string::npos) << status.text();
-    query.tolerance = 0.1;
-    query.a.pose.angle = std::nan("");
-    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
-    query.a = {};
-    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::unknown_shape);
 }
 
 }  // namespace

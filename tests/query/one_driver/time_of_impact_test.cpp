@@ -119,14 +119,6 @@ TEST_F(TimeOfImpactTest, RefusesWhatItCannotUse) {
         EXPECT_NE(status.message().find(what), std::string::npos) << status.text();
     };
     TimeOfImpactQuery query = good;
-    query.technique = Technique::compute;
-    expect_refused(query, "compute does not answer times of impact");
-    query = good;
-    query.tolerance = 0.0;
-    expect_refused(query, "tolerance");
-    query.tolerance = 1e-14;
-    expect_refused(query, "double precision");
-    query = good;
     query.time_bound = 0.0;
     expect_refused(query, "the time bound is 0");
     query.time_bound = 1.5;
@@ -135,25 +127,14 @@ TEST_F(TimeOfImpactTest, RefusesWhatItCannotUse) {
     query.max_steps = 0;
     expect_refused(query, "most steps");
     query = good;
-    for (const double distance : {-0.1, std::nan(""), 1e300}) {
-        query.contact_distance = distance;
-        expect_refused(query, "the contact distance is");
-    }
-    query = good;
     query.end_a.angle = std::numeric_limits<double>::infinity();
     expect_refused(query, "the angle of A's end pose");
     query = good;
     query.end_b.translation.y = std::nan("");
     expect_refused(query, "the y of B's end pose");
     query = good;
-    query.a.pose.translation.x = 1e300;
-    expect_refused(query, "the x of A's pose");
-    query = good;
     query.end_a.angle = 1e15;
     expect_refused(query, "double precision");
-    query = good;
-    query.b = {};
-    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::unknown_shape);
 }
 
 }  // namespace
