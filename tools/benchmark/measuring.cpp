@@ -4,10 +4,12 @@
 #include <sched.h>
 #include <tools/benchmark/measuring.hpp>
 #include <tools/common/library_error.hpp>
+#include <tools/io/answer.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <numeric>
@@ -159,20 +161,39 @@ std::string date_of_today() {
 
 }  // namespace
 
-Machine this_machine() {
-    return {embedded::commit, processor_name(), usable_cores(), date_of_today()};
+std::string three_digits(double number) {
+    char text[32];
+    // 1.23e+03 is harder to read than 1230.
+    std::snprintf(text, sizeof text, number < 1000.0 ? "%.3g" : "%.0f", number);
+    return text;
 }
 
-std::string driver_of(const std::string& device) {
-    if (device.empty()) {
-        return {};
-    }
-    for (const DeviceReport& report : tools::take(list_devices())) {
-        if (report.name == device) {
-            return report.driver;
+Surroundings surroundings_of(const std::string& device) {
+    Surroundings surroundings{embedded::commit, processor_name(), usable_cores(),
+                              date_of_today(),  device,           {}};
+    if (!device.empty()) {
+        for (const DeviceReport& report : tools::take(list_devices())) {
+            if (report.name == device) {
+                surroundings.driver = report.driver;
+                break;
+            }
         }
     }
-    return {};
+    return surroundings;
+}
+
+void write_surroundings(std::ostream& stream, const Surroundings& surroundings) {
+    stream << surroundings.date << ", nearfield " << surroundings.commit << "; "
+           << surroundings.processor << ", " << surroundings.cores << " cores; "
+           << tools::device_text(surroundings.device) << " (" << surroundings.driver << ')';
+}
+
+void write_surroundings(tools::JsonWriter& json, const Surroundings& surroundings) {
+    json.member("commit", surroundings.commit);
+    json.member("date", surroundings.date);
+    json.member("processor", surroundings.processor);
+    json.member("cores", surroundings.cores);
+    json.member("device", surroundings.device, !surroundings.device.empty());
 }
 
 }  // namespace nearfield::benchmark

@@ -2,9 +2,12 @@
 
 #include <nearfield/result.hpp>
 
+#include <tools/io/json_writer.hpp>
+
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -80,17 +83,25 @@ void measure(std::span<Contender> contenders, const Budget& budget);
 /// Milliseconds of all passes together.
 [[nodiscard]] double sum_of(std::span<const PassTime> passes);
 
+/// A number with three significant digits: the spread is seldom below one percent.
+[[nodiscard]] std::string three_digits(double number);
+
 /// Where a measurement was taken, for later readers of the figures.
-struct Machine {
+struct Surroundings {
     std::string commit;     ///< of the sources, or their version outside a repository
     std::string processor;  ///< the name the system reports
     unsigned cores = 0;     ///< available to this process
     std::string date;       ///< "2026-11-21"
+    std::string device;     ///< empty if there is none
+    std::string driver;     ///< of the device
 };
 
-[[nodiscard]] Machine this_machine();
+/// This machine, and its device with this name.
+[[nodiscard]] Surroundings surroundings_of(const std::string& device);
 
-/// The driver of the device with this name; empty if there is none.
-[[nodiscard]] std::string driver_of(const std::string& device);
+/// "2026-11-21, nearfield COMMIT; PROCESSOR, 2 cores; DEVICE (DRIVER)", without a line feed.
+void write_surroundings(std::ostream& stream, const Surroundings& surroundings);
+/// The same as members of an open object, but the driver.
+void write_surroundings(tools::JsonWriter& json, const Surroundings& surroundings);
 
 }  // namespace nearfield::benchmark

@@ -4,9 +4,9 @@
 #include <nearfield/world_pairs.hpp>
 
 #include <tools/benchmark/measuring.hpp>
+#include <tools/benchmark/table.hpp>
 #include <tools/benchmark/workloads.hpp>
 #include <tools/cli/gpu_table.hpp>
-#include <tools/cli/standard_table.hpp>
 #include <tools/common/add_shape.hpp>
 #include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
@@ -23,7 +23,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <functional>
@@ -43,6 +42,9 @@
 
 namespace nearfield::tools {
 namespace {
+
+using benchmark::Surroundings;
+using benchmark::three_digits;
 
 /// Medians of one way to do the work of a row, in milliseconds a frame.
 struct GpuTime {
@@ -308,18 +310,12 @@ std::vector<GpuRowPlan> gpu_rows() {
     return rows;
 }
 
-std::string significant(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, number < 1000.0 ? "%.3g" : "%.0f", number);
-    return text;
-}
-
 std::string cell(const GpuTime& time) {
     if (time.frames == 0) {
         return time.refusal.empty() ? "-" : "refused";
     }
-    return significant(time.frame) + "; " + significant(time.cpu) + "; " +
-           (time.device ? significant(*time.device) : "-");
+    return three_digits(time.frame) + "; " + three_digits(time.cpu) + "; " +
+           (time.device ? three_digits(*time.device) : "-");
 }
 
 void write_table(std::ostream& stream, std::span<const GpuRow> rows, bool of_pairs) {
@@ -445,6 +441,7 @@ void write_gpu_json(std::ostream& stream, std::span<const GpuRow> rows,
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     write_surroundings(json, surroundings);
+    json.member("driver", surroundings.driver);
     json.list("rows", rows, [&json](const GpuRow& row) {
         json.begin_object(JsonWriter::Layout::lines);
         json.member("name", row.name);
@@ -591,8 +588,7 @@ void run_gpu_table(const std::string& filter, const Settings& settings,
     const std::vector<GpuRowPlan> plans = benchmark::rows_with(filter, gpu_rows());
     ReportTarget report(json);
     GpuRace race(settings);
-    const Surroundings surroundings{benchmark::this_machine(), race.device_name(),
-                                    benchmark::driver_of(race.device_name())};
+    const Surroundings surroundings = benchmark::surroundings_of(race.device_name());
     const StatusLine line;
     std::vector<GpuRow> rows;
     for (const GpuRowPlan& plan : plans) {

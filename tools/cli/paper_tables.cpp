@@ -268,14 +268,13 @@ void print_rows(std::ostream& stream, const std::vector<PaperRow>& rows) {
     }
 }
 
-void print_tables(std::ostream& stream, const Measured& measured, const benchmark::Machine& machine,
-                  const std::string& device) {
+void print_tables(std::ostream& stream, const Measured& measured,
+                  const benchmark::Surroundings& surroundings) {
     constexpr auto header =
         " | objects | lines | queries | points | raster | compute | cpu | automatic | GeForce2 | "
         "InfiniteReality2 | ATI Rage Pro LT |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-    stream << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
-           << machine.cores << " cores; " << device_text(device) << " ("
-           << benchmark::driver_of(device) << ")\n\n"
+    write_surroundings(stream, surroundings);
+    stream << "\n\n"
            << "Table 2: milliseconds of a frame's proximity queries (points inside each other, "
               "their depths and directions,\nfor every near pair both ways), on average over the "
               "simulation; the last three columns are the paper's.\n\n| demo"
@@ -319,15 +318,11 @@ void write_growth(JsonWriter& json, const char* name, const char* of,
     });
 }
 
-void write_json(std::ostream& stream, const Measured& measured, const benchmark::Machine& machine,
-                const std::string& device) {
+void write_json(std::ostream& stream, const Measured& measured,
+                const benchmark::Surroundings& surroundings) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.member("commit", machine.commit);
-    json.member("date", machine.date);
-    json.member("processor", machine.processor);
-    json.member("cores", machine.cores);
-    json.member("device", device, !device.empty());
+    write_surroundings(json, surroundings);
     write_rows(json, "table_2", measured.table_2);
     write_rows(json, "table_3", measured.table_3);
     write_growth(json, "growth_with_lines", "lines", measured.lines);
@@ -377,14 +372,15 @@ void run_paper_tables(const Settings& settings, const std::optional<std::string>
         measure_growth(stopwatch, measured);
     }
     show("");
-    const benchmark::Machine machine = benchmark::this_machine();
-    print_tables(report.summary(), measured, machine, stopwatch.device_name());
+    const benchmark::Surroundings surroundings =
+        benchmark::surroundings_of(stopwatch.device_name());
+    print_tables(report.summary(), measured, surroundings);
     if (picture) {
         picture->stream() << draw_curves(measured);
         picture->commit();
     }
     if (std::ostream* stream = report.json()) {
-        write_json(*stream, measured, machine, stopwatch.device_name());
+        write_json(*stream, measured, surroundings);
     }
     report.commit();
 }

@@ -14,13 +14,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace nearfield::tools {
+
+using benchmark::Surroundings;
+using benchmark::three_digits;
+
 namespace {
 
 constexpr std::string_view automatic_name = "automatic";
@@ -205,17 +208,6 @@ std::string TechniqueRace::device_name() const {
 
 namespace {
 
-/// Milliseconds with three significant digits: the spread is seldom below one percent.
-std::string three_digits(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", number);
-    // 1.23e+03 is harder to read than 1230.
-    if (number >= 1000.0) {
-        std::snprintf(text, sizeof text, "%.0f", number);
-    }
-    return text;
-}
-
 std::string padded(std::string text, std::size_t width) {
     text.resize(std::max(text.size(), width), ' ');
     return text;
@@ -268,22 +260,6 @@ void write_technique(JsonWriter& json, const TechniqueTime& time) {
 }
 
 }  // namespace
-
-void write_surroundings(std::ostream& stream, const Surroundings& surroundings) {
-    const benchmark::Machine& machine = surroundings.machine;
-    stream << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
-           << machine.cores << " cores; " << device_text(surroundings.device) << " ("
-           << surroundings.driver << ')';
-}
-
-void write_surroundings(JsonWriter& json, const Surroundings& surroundings) {
-    json.member("commit", surroundings.machine.commit);
-    json.member("date", surroundings.machine.date);
-    json.member("processor", surroundings.machine.processor);
-    json.member("cores", surroundings.machine.cores);
-    json.member("device", surroundings.device, !surroundings.device.empty());
-    json.member("driver", surroundings.driver);
-}
 
 TextTable::TextTable(std::ostream& stream, const Surroundings& surroundings) : stream_(stream) {
     write_surroundings(stream_, surroundings);
@@ -348,6 +324,7 @@ void write_table_json(std::ostream& stream, std::span<const RowTimes> table,
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     write_surroundings(json, surroundings);
+    json.member("driver", surroundings.driver);
     json.list("rows", table, [&json](const RowTimes& row) {
         json.begin_object(JsonWriter::Layout::lines);
         json.member("name", row.name);
@@ -373,8 +350,7 @@ void run_standard_table(const std::string& filter, const Settings& settings,
         benchmark::rows_with(filter, benchmark::standard_table());
     ReportTarget report(json);
     TechniqueRace race(settings);
-    const Surroundings surroundings{benchmark::this_machine(), race.device_name(),
-                                    benchmark::driver_of(race.device_name())};
+    const Surroundings surroundings = benchmark::surroundings_of(race.device_name());
     TextTable text(report.summary(), surroundings);
     std::vector<RowTimes> table;
     for (const benchmark::Row& row : rows) {

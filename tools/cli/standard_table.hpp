@@ -4,7 +4,6 @@
 
 #include <tools/benchmark/measuring.hpp>
 #include <tools/benchmark/table.hpp>
-#include <tools/io/json_writer.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -75,23 +74,11 @@ private:
     std::vector<Runner> runners_;
 };
 
-/// The environment of a measured table.
-struct Surroundings {
-    benchmark::Machine machine;
-    std::string device;
-    std::string driver;
-};
-
-/// "2026-11-21, nearfield COMMIT; PROCESSOR, 2 cores; DEVICE (DRIVER)", without a line feed.
-void write_surroundings(std::ostream& stream, const Surroundings& surroundings);
-/// The same as members of an open object.
-void write_surroundings(JsonWriter& json, const Surroundings& surroundings);
-
 /// The table in Markdown, written row by row.
 class TextTable {
 public:
     /// Writes the lines above the rows.
-    TextTable(std::ostream& stream, const Surroundings& surroundings);
+    TextTable(std::ostream& stream, const benchmark::Surroundings& surroundings);
 
     void add(const RowTimes& row);
     /// Writes the explanations of the refusals.

@@ -1,10 +1,12 @@
-#include <tools/io/answer.hpp>
 #include <tools/io/summary.hpp>
+#include <tools/io/world_report.hpp>
 #include <tools/peers/agreement.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <variant>
 
 namespace nearfield::peers {
@@ -13,11 +15,12 @@ namespace {
 /// Compares the answers to the queries one by one.
 class Comparison {
 public:
-    Comparison(Peer& peer, std::span<const PlacedShape> shapes, Agreement& agreement)
-        : peer_(peer), shapes_(shapes), agreement_(agreement) {}
+    Comparison(Peer& peer, const Problem& problem, std::span<const PlacedShape> shapes,
+               PeerTimes& times)
+        : peer_(peer), problem_(problem), shapes_(shapes), times_(times) {}
 
-    void next(const tools::SceneQuery& query, std::size_t index) {
-        query_ = &query;
+    void next(std::size_t index) {
+        query_ = &problem_.scene.queries[index];
         index_ = index;
     }
 
@@ -43,18 +46,18 @@ public:
     }
 
 private:
-    void complain(const std::string& text) {
-        if (agreement_.complaint.empty()) {
-            agreement_.complaint = "query " + std::to_string(index_) + ": " + text;
-        }
+    [[noreturn]] void complain(const std::string& text) const {
+        throw std::runtime_error(problem_.name + ": nearfield and " + peer_.name() +
+                                 " differ: query " + std::to_string(index_) + ": " + text);
     }
     void expect_near(const char* what, double ours, double theirs, double bound);
     [[nodiscard]] double length_near(std::size_t of, std::size_t other) const;
     [[nodiscard]] std::uint64_t touching_vertices() const;
 
     Peer& peer_;
+    const Problem& problem_;
     std::span<const PlacedShape> shapes_;
-    Agreement& agreement_;
+    PeerTimes& times_;
     const tools::SceneQuery* query_ = nullptr;
     std::size_t index_ = 0;
 };
@@ -62,9 +65,9 @@ private:
 void Comparison::expect_near(const char* what, double ours, double theirs, double bound) {
     const double allowed = bound + 1e-6 * query_->request.tolerance;
     const double difference = std::abs(ours - theirs);
-    if (difference > agreement_.largest_difference) {
-        agreement_.largest_difference = difference;
-        agreement_.allowed = allowed;
+    if (difference > times_.largest_difference) {
+        times_.largest_difference = difference;
+        times_.allowed = allowed;
     }
     if (!(difference <= allowed)) {
         complain(std::string(what) + " " + tools::short_number(ours) + ", by the peer " +
@@ -101,12 +104,9 @@ void Comparison::compare(const PenetrationResult& result, const Answer& answer) 
 void Comparison::compare(const DistanceFieldResult& result, const Answer& answer) {
     if (result.values.size() != answer.values.size()) {
         complain("grids of different sizes");
-        return;
     }
     for (std::size_t i = 0; i < answer.values.size(); ++i) {
-        const float value = result.values[i];
-        expect_near("value", peer_.signed_field() ? value : std::abs(value), answer.values[i],
-                    result.error_bound);
+        expect_near("value", result.values[i], answer.values[i], result.error_bound);
     }
 }
 
@@ -130,35 +130,93 @@ double Comparison::length_near(std::size_t of, std::size_t other) const {
     return spacing * static_cast<double>(points.size());
 }
 
-}  // namespace
-
-Agreement compare(Peer& peer, const Problem& problem, std::span<const PlacedShape> shapes,
-                  std::span<const AnyResult* const> results, std::span<const Answer> answers) {
-    Agreement agreement;
-    Comparison comparison(peer, shapes, agreement);
-    for (std::size_t index = 0; index < answers.size(); ++index) {
-        comparison.next(problem.scene.queries[index], index);
-        if (problem.task == Task::intersection_test) {
-            comparison.compare_test(tools::summary_of(*results[index]), answers[index]);
-            continue;
-        }
-        std::visit([&](const auto& result) { comparison.compare(result, answers[index]); },
-                   *results[index]);
+/// A number per input, as Peer::ask_world() has it.
+template <class Record>
+double number_of(const Record& record) {
+    if constexpr (std::is_same_v<Record, RayHit>) {
+        return tools::is_hit(record) ? record.parameter : 2.0;
+    } else if constexpr (requires { record.distance; }) {
+        return std::max(record.distance, 0.0);
+    } else if constexpr (std::is_same_v<Record, std::uint8_t>) {
+        return record;
+    } else {
+        throw std::logic_error("no problem has such a query");
     }
-    return agreement;
 }
 
-double largest_field_error(const Problem& problem, std::span<const Answer> exact,
-                           std::span<const Answer> approximate) {
-    double largest = 0.0;
-    for (std::size_t index = 0; index < exact.size(); ++index) {
-        const double cell = problem.scene.queries[index].request.tolerance * std::numbers::sqrt2;
-        for (std::size_t i = 0; i < exact[index].values.size(); ++i) {
-            largest = std::max(
-                largest, std::abs(exact[index].values[i] - approximate[index].values[i]) / cell);
+std::vector<double> numbers_of(const Problem& problem, Context& context) {
+    tools::SceneRunner runner(problem.scene, problem.name, context);
+    runner.run_frame();
+    runner.require_results();
+    std::vector<double> numbers;
+    std::visit(
+        [&numbers](const auto& found) {
+            for (const auto& record : tools::records_of(found)) {
+                numbers.push_back(number_of(record));
+            }
+        },
+        runner.answers().front().world->records);
+    return numbers;
+}
+
+/// Asks about inputs in the place of others that are off by rounding.
+Problem displaced(Problem problem, const Vector2& by) {
+    const auto displace = [&by](Vector2& point) { point = {point.x + by.x, point.y + by.y}; };
+    tools::WorldRequest& request = *problem.scene.queries[0].world;
+    for (Pose& pose : request.poses) {
+        displace(pose.translation);
+    }
+    std::for_each(request.points.begin(), request.points.end(), displace);
+    for (Segment& segment : request.segments) {
+        displace(segment.from);
+        displace(segment.to);
+    }
+    return problem;
+}
+
+}  // namespace
+
+void compare(Peer& peer, const Problem& problem, std::span<const PlacedShape> shapes,
+             std::span<const tools::SceneAnswer> results, std::span<const Answer> answers,
+             PeerTimes& times) {
+    Comparison comparison(peer, problem, shapes, times);
+    for (std::size_t index = 0; index < answers.size(); ++index) {
+        comparison.next(index);
+        const AnyResult& result = results[index].result;
+        if (problem.task == Task::intersection_test) {
+            comparison.compare_test(tools::summary_of(result), answers[index]);
+            continue;
+        }
+        std::visit([&](const auto& any) { comparison.compare(any, answers[index]); }, result);
+    }
+}
+
+void compare_world(const Peer& peer, const Problem& problem, Context& context,
+                   const std::vector<double>& numbers, PeerTimes& times) {
+    std::vector<double> least = numbers_of(problem, context);
+    std::vector<double> most = least;
+    constexpr int directions = 8;
+    for (int i = 0; i < directions && peer.rounding() > 0.0; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / directions;
+        const Vector2 by{peer.rounding() * std::cos(angle), peer.rounding() * std::sin(angle)};
+        const std::vector<double> other = numbers_of(displaced(problem, by), context);
+        for (std::size_t k = 0; k < other.size(); ++k) {
+            least[k] = std::min(least[k], other[k]);
+            most[k] = std::max(most[k], other[k]);
         }
     }
-    return largest;
+    const std::size_t max_apart = peer.rounding() > 0.0 ? numbers.size() / 10'000 : 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const double allowed = 1e-9 * (1.0 + std::abs(numbers[i]));
+        const bool is_apart = numbers[i] < least[i] - allowed || numbers[i] > most[i] + allowed;
+        times.apart += is_apart ? 1 : 0;
+        if (is_apart && times.apart > max_apart) {
+            throw std::runtime_error(problem.name + ": answer " + std::to_string(i) +
+                                     ": nearfield " + std::to_string(least[i]) + " to " +
+                                     std::to_string(most[i]) + ", " + peer.name() + " " +
+                                     std::to_string(numbers[i]));
+        }
+    }
 }
 
 }  // namespace nearfield::peers

@@ -11,15 +11,14 @@ constexpr double clipper_scale = 1e6;
 
 class Clipper final : public Peer {
 public:
-    [[nodiscard]] std::string name() const override { return "Clipper"; }
-    [[nodiscard]] std::string how(Task task) const override {
-        return task == Task::intersection_test ? "whether the intersection has an area; touching "
-                                                 "does not count"
-               : task == Task::common_area
-                   ? "area of the intersection, exact for coordinates rounded to a millionth"
-                   : "";
-    }
-    void build(std::span<const PlacedShape> shapes, Task /*task*/) override {
+    Clipper()
+        : Peer("Clipper",
+               {{Task::intersection_test,
+                 "whether the intersection has an area; touching does not count"},
+                {Task::common_area,
+                 "area of the intersection, exact for coordinates rounded to a millionth"}}) {}
+
+    void build(const Problem& /*problem*/, std::span<const PlacedShape> shapes) override {
         shapes_.clear();
         for (const PlacedShape& placed : shapes) {
             ClipperLib::Paths& paths = shapes_.emplace_back();

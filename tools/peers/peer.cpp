@@ -23,6 +23,16 @@ void answer_points(Peer& peer, const tools::SceneQuery& query, double spacing,
     }
 }
 
+void answer_field(Peer& peer, std::size_t shape, const Grid& grid, std::vector<double>& values) {
+    for (std::size_t row = 0; row < grid.height; ++row) {
+        for (std::size_t column = 0; column < grid.width; ++column) {
+            const Vector2 center = grid.center(column, row);
+            const double distance = peer.distance_to_boundary(shape, center);
+            values.push_back(peer.is_inside(shape, center) ? -distance : distance);
+        }
+    }
+}
+
 }  // namespace
 
 bool Peer::is_inside(std::size_t /*shape*/, Vector2 /*point*/) {
@@ -45,17 +55,8 @@ double Peer::common_area(std::size_t /*a*/, std::size_t /*b*/) {
     fail_unasked(*this);
 }
 
-void Peer::field(std::size_t shape, const Grid& grid, std::vector<float>& values) {
-    values.clear();
-    const bool has_sign = signed_field();
-    for (std::size_t row = 0; row < grid.height; ++row) {
-        for (std::size_t column = 0; column < grid.width; ++column) {
-            const Vector2 center = grid.center(column, row);
-            const double distance = distance_to_boundary(shape, center);
-            const bool inside = has_sign && is_inside(shape, center);
-            values.push_back(static_cast<float>(inside ? -distance : distance));
-        }
-    }
+void Peer::ask_world(const Problem& /*problem*/, std::vector<double>& /*numbers*/) {
+    fail_unasked(*this);
 }
 
 void answer(Peer& peer, const Problem& problem, std::span<const PlacedShape> shapes,
@@ -67,6 +68,7 @@ void answer(Peer& peer, const Problem& problem, std::span<const PlacedShape> sha
         Answer& result = answers[index];
         result.count = 0;
         result.number = 0.0;
+        result.values.clear();
         switch (problem.task) {
             case Task::vertex_penetration:
                 answer_points(peer, query, 0.0, shapes, points, result);
@@ -85,7 +87,10 @@ void answer(Peer& peer, const Problem& problem, std::span<const PlacedShape> sha
                 result.number = peer.common_area(query.a, query.b);
                 break;
             case Task::field:
-                peer.field(query.b, grid_of(query.request), result.values);
+                answer_field(peer, query.b, grid_of(query.request), result.values);
+                break;
+            default:
+                peer.ask_world(problem, result.values);
                 break;
         }
     }

@@ -1,70 +1,25 @@
-#include <tools/benchmark/measuring.hpp>
 #include <tools/common/add_shape.hpp>
 #include <tools/common/library_error.hpp>
-#include <tools/io/query_request.hpp>
 #include <tools/peers/agreement.hpp>
-#include <tools/peers/peer.hpp>
-#include <tools/peers/race.hpp>
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <stdexcept>
-#include <utility>
 #include <variant>
 
 namespace nearfield::peers {
 namespace {
 
-Answer answer_of(const PenetrationResult& result) {
-    return {result.count, result.count > 0 ? result.deepest.depth : 0.0, {}};
-}
+using benchmark::milliseconds_of;
+using benchmark::milliseconds_of_short;
+using tools::FrameInput;
+using tools::SceneRunner;
 
-Answer answer_of(const SeparationResult& result) {
-    return {0, result.distance, {}};
-}
-
-Answer answer_of(const IntersectionResult& result) {
-    return {0, result.area, {}};
-}
-
-Answer answer_of(const DistanceFieldResult& result) {
-    return {0, 0.0, result.values};
-}
-
-/// No problem contains other queries.
-Answer answer_of(const ResultSummary& /*result*/) {
-    return {};
-}
-
-}  // namespace
-
-NearfieldSide::NearfieldSide(const Problem& problem, Context& context)
-    : runner_(problem.scene, problem.name, context) {}
-
-double NearfieldSide::run_frame(tools::FrameInput input) {
-    const double milliseconds = runner_.run_frame(input);
-    runner_.require_results();
+double run_frame(SceneRunner& runner, FrameInput input) {
+    const double milliseconds = runner.run_frame(input);
+    runner.require_results();
     return milliseconds;
 }
-
-std::vector<Answer> NearfieldSide::answers() const {
-    std::vector<Answer> answers;
-    for (const AnyResult* const result : results()) {
-        answers.push_back(std::visit([](const auto& any) { return answer_of(any); }, *result));
-    }
-    return answers;
-}
-
-std::vector<const AnyResult*> NearfieldSide::results() const {
-    std::vector<const AnyResult*> results;
-    for (const tools::SceneAnswer& answer : runner_.answers()) {
-        results.push_back(&answer.result);
-    }
-    return results;
-}
-
-namespace {
 
 /// That of all queries of a problem that the task of penetrations poses; otherwise any.
 PenetrationQuery penetration_of(const Problem& problem) {
@@ -78,7 +33,31 @@ PenetrationQuery penetration_of(const Problem& problem) {
 
 constexpr PairTableOptions listed{.listed = true, .technique = Technique::cpu};
 
-}  // namespace
+/// nearfield on a list of pairs of shapes that stay where they are: a world.
+class KeptPairs {
+public:
+    /// Both must outlive it. Throws if anything is rejected.
+    KeptPairs(const Problem& problem, Context& context);
+
+    /// Whether a world answers lists of pairs for such a task.
+    [[nodiscard]] static bool answers(Task task) {
+        return task == Task::intersection_test || task == Task::vertex_penetration;
+    }
+
+    /// Runs one frame; returns milliseconds.
+    double run_frame();
+
+    /// Throws unless the answers of the last frame are these results.
+    void require_same(std::span<const tools::SceneAnswer> results);
+
+private:
+    const Problem& problem_;
+    World world_;
+    std::vector<InstanceHandle> a_;
+    std::vector<InstanceHandle> b_;
+    PairTable<IntersectionTestQuery> tests_;
+    PairTable<PenetrationQuery> penetrations_;
+};
 
 KeptPairs::KeptPairs(const Problem& problem, Context& context)
     : problem_(problem),
@@ -105,19 +84,20 @@ double KeptPairs::run_frame() {
     PairTableBase& table = problem_.task == Task::vertex_penetration
                                ? static_cast<PairTableBase&>(penetrations_)
                                : static_cast<PairTableBase&>(tests_);
-    return benchmark::milliseconds_of_short([&] {
+    return milliseconds_of_short([&] {
         if (const Status status = world_.update(table, {.a = a_, .b = b_}); !status.ok()) {
             tools::require(status, "bench_peers");
         }
     });
 }
 
-void KeptPairs::require_same(const std::vector<const AnyResult*>& results) {
+void KeptPairs::require_same(std::span<const tools::SceneAnswer> results) {
     for (std::size_t i = 0; i < results.size(); ++i) {
         bool is_same = false;
-        if (const auto* const test = std::get_if<IntersectionTestResult>(results[i])) {
+        if (const auto* const test = std::get_if<IntersectionTestResult>(&results[i].result)) {
             is_same = test->intersects == tests_.rows()[i].intersects;
-        } else if (const auto* const penetration = std::get_if<PenetrationResult>(results[i])) {
+        } else if (const auto* const penetration =
+                       std::get_if<PenetrationResult>(&results[i].result)) {
             const PairRow<PenetrationQuery>& row = penetrations_.rows()[i];
             is_same = row.status == StatusCode::ok && row.intersects == penetration->intersects &&
                       row.count == penetration->count &&
@@ -130,29 +110,37 @@ void KeptPairs::require_same(const std::vector<const AnyResult*>& results) {
     }
 }
 
-namespace {
-
-using benchmark::milliseconds_of;
-using benchmark::milliseconds_of_short;
-
 /// A peer at work on a problem, in two copies: one rebuilt each frame and one kept.
 struct Entry {
     Entry(const Problem& of, std::unique_ptr<Peer> anew, std::unique_ptr<Peer> once)
         : problem(of), built(std::move(anew)), kept(std::move(once)) {
         place(problem.scene, kept_shapes);
-        kept->build(kept_shapes, problem.task);
+        kept->build(problem, kept_shapes);
     }
 
     double run_built() {
         return milliseconds_of([&] {
             place(problem.scene, built_shapes);
-            built->build(built_shapes, problem.task);
+            built->build(problem, built_shapes);
             answer(*built, problem, built_shapes, built_answers);
         });
     }
-
     double run_kept() {
         return milliseconds_of_short([&] { answer(*kept, problem, kept_shapes, kept_answers); });
+    }
+    /// Runs both, and compares their answers with nearfield's.
+    PeerTimes checked(std::span<const tools::SceneAnswer> results, Context& context) {
+        PeerTimes times{kept->name(), kept->methods().at(problem.task), {}, {}};
+        run_kept();
+        if (problem.is_of_world()) {
+            compare_world(*kept, problem, context, kept_answers.front().values, times);
+            return times;
+        }
+        run_built();
+        for (const std::vector<Answer>* const answers : {&built_answers, &kept_answers}) {
+            compare(*kept, problem, kept_shapes, results, *answers, times);
+        }
+        return times;
     }
 
     const Problem& problem;
@@ -164,46 +152,15 @@ struct Entry {
     std::vector<Answer> kept_answers;
 };
 
-using MakePeer = std::unique_ptr<Peer> (*)();
-
-constexpr MakePeer all_peers[] = {make_geos_peer, make_boost_peer,   make_boost_tree_peer,
-                                  make_cgal_peer, make_clipper_peer, make_opencv_peer};
-
 std::vector<std::unique_ptr<Entry>> entries_of(const Problem& problem) {
     std::vector<std::unique_ptr<Entry>> entries;
-    for (const MakePeer make : all_peers) {
-        if (!make()->how(problem.task).empty()) {
+    for (const auto make : {make_geos_peer, make_boost_peer, make_boost_tree_peer, make_cgal_peer,
+                            make_clipper_peer, make_box2d_peer}) {
+        if (make()->methods().contains(problem.task)) {
             entries.push_back(std::make_unique<Entry>(problem, make(), make()));
         }
     }
     return entries;
-}
-
-PeerTimes checked(Entry& entry, const NearfieldSide& ours) {
-    PeerTimes times;
-    times.name = entry.kept->name();
-    times.how = entry.kept->how(entry.problem.task);
-    times.exact = entry.kept->exact();
-    times.has_sign = entry.problem.task != Task::field || entry.kept->signed_field();
-    entry.run_built();
-    entry.run_kept();
-    if (!times.exact) {
-        times.error_in_cells =
-            largest_field_error(entry.problem, ours.answers(), entry.kept_answers);
-        return times;
-    }
-    const std::vector<const AnyResult*> results = ours.results();
-    for (const std::vector<Answer>* const answers : {&entry.built_answers, &entry.kept_answers}) {
-        const Agreement agreement =
-            compare(*entry.kept, entry.problem, entry.kept_shapes, results, *answers);
-        if (!agreement.complaint.empty()) {
-            throw std::runtime_error(entry.problem.name + ": nearfield and " + times.name +
-                                     " differ: " + agreement.complaint);
-        }
-        times.largest_difference = agreement.largest_difference;
-        times.allowed = agreement.allowed;
-    }
-    return times;
 }
 
 }  // namespace
@@ -211,10 +168,7 @@ PeerTimes checked(Entry& entry, const NearfieldSide& ours) {
 std::optional<double> ProblemTimes::quickest(benchmark::Spread PeerTimes::*times) const {
     std::optional<double> least;
     for (const PeerTimes& peer : peers) {
-        if (peer.exact && peer.has_sign) {
-            const double median = (peer.*times).median;
-            least = std::min(least.value_or(median), median);
-        }
+        least = std::min(least.value_or((peer.*times).median), (peer.*times).median);
     }
     return least;
 }
@@ -222,37 +176,46 @@ std::optional<double> ProblemTimes::quickest(benchmark::Spread PeerTimes::*times
 ProblemTimes race(const Problem& problem, Context& context) {
     ProblemTimes times;
     times.name = problem.name;
+    times.task = tools::name_of(problem.task);
     times.queries = problem.scene.queries.size();
-    NearfieldSide ours(problem, context);
-    NearfieldSide kept(problem, context);
-    ours.run_frame(tools::FrameInput::all);
-    kept.run_frame(tools::FrameInput::all);
+    SceneRunner ours(problem.scene, problem.name, context);
+    SceneRunner kept(problem.scene, problem.name, context);
+    run_frame(ours, FrameInput::all);
+    run_frame(kept, FrameInput::all);
+    const std::vector<tools::SceneAnswer> results = ours.answers();
     std::optional<KeptPairs> pairs;
     if (KeptPairs::answers(problem.task)) {
         pairs.emplace(problem, context);
         pairs->run_frame();
-        pairs->require_same(ours.results());
+        pairs->require_same(results);
     }
     times.technique = ours.technique();
-    const std::vector<std::unique_ptr<Entry>> entries = entries_of(problem);
+    // Of a world the index alone is of interest, which is built once.
     std::vector<benchmark::Contender> contenders;
-    contenders.push_back({[&] { return ours.run_frame(tools::FrameInput::all); }, {}});
-    contenders.push_back(
-        {[&] { return pairs ? pairs->run_frame() : kept.run_frame(tools::FrameInput::nothing); },
-         {}});
-    for (const std::unique_ptr<Entry>& owner : entries) {
-        Entry& entry = *owner;
-        times.peers.push_back(checked(entry, ours));
-        contenders.push_back({[&entry] { return entry.run_built(); }, {}});
-        contenders.push_back({[&entry] { return entry.run_kept(); }, {}});
+    std::vector<benchmark::Spread*> spreads;
+    const auto add = [&](benchmark::Spread& spread, std::function<double()> frame) {
+        contenders.push_back({std::move(frame), {}});
+        spreads.push_back(&spread);
+    };
+    add(times.kept_ms,
+        [&] { return pairs ? pairs->run_frame() : run_frame(kept, FrameInput::nothing); });
+    const std::vector<std::unique_ptr<Entry>> entries = entries_of(problem);
+    times.peers.reserve(entries.size());
+    for (const std::unique_ptr<Entry>& entry : entries) {
+        PeerTimes& peer = times.peers.emplace_back(entry->checked(results, context));
+        add(peer.kept_ms, [&entry] { return entry->run_kept(); });
+        if (!problem.is_of_world()) {
+            add(peer.built_ms, [&entry] { return entry->run_built(); });
+        }
     }
-    benchmark::measure(contenders, {});
-    auto contender = contenders.begin();
-    times.built_ms = benchmark::spread_of((contender++)->frames_ms);
-    times.kept_ms = benchmark::spread_of((contender++)->frames_ms);
-    for (PeerTimes& peer : times.peers) {
-        peer.built_ms = benchmark::spread_of((contender++)->frames_ms);
-        peer.kept_ms = benchmark::spread_of((contender++)->frames_ms);
+    if (problem.is_of_world()) {
+        benchmark::measure(contenders, {.milliseconds = 3000.0, .max_frames = 50});
+    } else {
+        add(times.built_ms, [&] { return run_frame(ours, FrameInput::all); });
+        benchmark::measure(contenders, {});
+    }
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+        *spreads[i] = benchmark::spread_of(contenders[i].frames_ms);
     }
     return times;
 }

@@ -26,8 +26,7 @@ test_packages+=(
     qml6-module-qtquick-window qml6-module-qtqml-workerscript xvfb xauth
 )
 bench_packages=(
-    libgeos-dev libboost-dev libcgal-dev libpolyclipping-dev libopencv-core-dev libopencv-imgproc-dev
-    libbox2d-dev
+    libgeos-dev libboost-dev libcgal-dev libpolyclipping-dev libbox2d-dev
 )
 bits_packages=(clang g++-aarch64-linux-gnu qemu-user)
 
