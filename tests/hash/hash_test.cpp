@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/hash/sections.hpp>
 
 #include <algorithm>

@@ -3,10 +3,8 @@
 #include <nearfield/world.hpp>
 
 #include <gtest/gtest.h>
-#include <tools/common/library_error.hpp>
-#include <tools/simulation/clearance_scene.hpp>
-#include <tools/simulation/nest.hpp>
-#include <tools/simulation/robots.hpp>
+#include <tools/common/library.hpp>
+#include <tools/simulation/clearance_scenes.hpp>
 
 #include <algorithm>
 #include <memory>

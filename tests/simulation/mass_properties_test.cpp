@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <tools/simulation/mass_properties.hpp>
 #include <tools/simulation/plane.hpp>
+#include <tools/simulation/rigid_body.hpp>
 
 #include <algorithm>
 #include <vector>

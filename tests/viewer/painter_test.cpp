@@ -3,8 +3,8 @@
 #include <tests/support/degenerate_polygons.hpp>
 #include <tools/drawing/canvas.hpp>
 #include <tools/rendering/drawing.hpp>
-#include <tools/rendering/page.hpp>
-#include <tools/rendering/scene_picture.hpp>
+#include <tools/rendering/pictures.hpp>
+#include <tools/rendering/vulkan_painter.hpp>
 
 #include <algorithm>
 #include <cstdint>

@@ -2,9 +2,9 @@
 #include <tests/hosts/example_program.hpp>
 #include <tests/hosts/picture_file.hpp>
 #include <tests/support/techniques.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/drawing/view.hpp>
-#include <tools/simulation/nest.hpp>
+#include <tools/simulation/clearance_scenes.hpp>
 #include <tools/simulation/plane.hpp>
 #include <tools/simulation/scenes.hpp>
 

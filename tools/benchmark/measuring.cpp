@@ -3,7 +3,7 @@
 #include <embedded/commit.hpp>
 #include <sched.h>
 #include <tools/benchmark/measuring.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/io/answer.hpp>
 
 #include <algorithm>

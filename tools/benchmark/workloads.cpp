@@ -3,7 +3,7 @@
 #include <embedded/iceland_10m.hpp>
 #include <embedded/ireland_10m.hpp>
 #include <tools/benchmark/workloads.hpp>
-#include <tools/io/geojson.hpp>
+#include <tools/io/simple_features.hpp>
 #include <tools/io/values.hpp>
 
 #include <algorithm>

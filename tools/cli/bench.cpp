@@ -2,21 +2,16 @@
 
 #include <tools/benchmark/measuring.hpp>
 #include <tools/cli/bench.hpp>
-#include <tools/cli/gpu_table.hpp>
-#include <tools/cli/paper_tables.hpp>
+#include <tools/cli/options.hpp>
 #include <tools/cli/scene.hpp>
-#include <tools/cli/settings_options.hpp>
-#include <tools/cli/standard_table.hpp>
 #include <tools/common/interruptible.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/output_file.hpp>
-#include <tools/io/query_json.hpp>
 #include <tools/io/scene.hpp>
-#include <tools/io/summary.hpp>
 
 #include <algorithm>
 #include <cstddef>

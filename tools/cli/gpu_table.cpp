@@ -6,17 +6,15 @@
 #include <tools/benchmark/measuring.hpp>
 #include <tools/benchmark/table.hpp>
 #include <tools/benchmark/workloads.hpp>
-#include <tools/cli/gpu_table.hpp>
-#include <tools/common/add_shape.hpp>
+#include <tools/cli/bench.hpp>
 #include <tools/common/interruptible.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/common/scene_runner.hpp>
+#include <tools/io/answer.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_writer.hpp>
 #include <tools/io/output_file.hpp>
-#include <tools/io/query_json.hpp>
 #include <tools/rendering/gpu.hpp>
-#include <tools/rendering/resources.hpp>
 
 #include <algorithm>
 #include <array>

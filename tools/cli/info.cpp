@@ -2,7 +2,7 @@
 #include <nearfield/version.hpp>
 
 #include <tools/cli/info.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/io/query_request.hpp>
 
 #include <iostream>

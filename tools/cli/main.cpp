@@ -3,14 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <tools/cli/bench.hpp>
 #include <tools/cli/hash.hpp>
-#include <tools/cli/help_formatter.hpp>
 #include <tools/cli/info.hpp>
+#include <tools/cli/options.hpp>
 #include <tools/cli/query.hpp>
-#include <tools/cli/query_options.hpp>
 #include <tools/cli/scene.hpp>
-#include <tools/cli/settings_options.hpp>
 #include <tools/cli/simulate.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/rendering/gpu.hpp>
 

@@ -1,9 +1,9 @@
 #include <tools/benchmark/measuring.hpp>
 #include <tools/benchmark/workloads.hpp>
-#include <tools/cli/paper_tables.hpp>
-#include <tools/cli/settings_options.hpp>
+#include <tools/cli/bench.hpp>
+#include <tools/cli/options.hpp>
 #include <tools/common/interruptible.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/drawing/line_chart.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/json_writer.hpp>

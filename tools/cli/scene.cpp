@@ -1,18 +1,17 @@
 #include <nearfield/context.hpp>
 
+#include <tools/cli/options.hpp>
 #include <tools/cli/scene.hpp>
-#include <tools/cli/settings_options.hpp>
 #include <tools/common/interruptible.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
+#include <tools/io/answer.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/layout.hpp>
 #include <tools/io/number_table.hpp>
 #include <tools/io/output_file.hpp>
-#include <tools/io/query_json.hpp>
 #include <tools/io/scene.hpp>
-#include <tools/io/summary.hpp>
 #include <tools/io/world_report.hpp>
 
 #include <algorithm>
@@ -24,48 +23,64 @@
 
 namespace nearfield::tools {
 
-WorldValuesFiles::WorldValuesFiles(const Scene& scene, const std::optional<std::string>& json) {
-    std::vector<std::string> outputs;
-    if (json && *json != "-") {
-        outputs.push_back(*json);
-    }
-    std::vector<std::string> values;
-    for (const SceneQuery& query : scene.queries) {
-        if (query.problem.empty() && query.world && !query.world->values.empty()) {
-            values.push_back(query.world->values);
-        }
-    }
-    outputs.insert(outputs.end(), values.begin(), values.end());
-    require_different_files(scene.files, outputs);
-    for (const std::string& path : values) {
-        files_.try_emplace(path, path);
-    }
-}
-
-void WorldValuesFiles::write(std::span<const SceneAnswer> answers) {
-    for (const SceneAnswer& answer : answers) {
-        if (answer.world == nullptr || answer.world->request->values.empty()) {
-            continue;
-        }
-        File& file = files_.at(answer.world->request->values);
-        if (is_npy(answer.world->request->values)) {
-            write_world_npy(file.output.stream(), *answer.world);
-        } else {
-            write_world_csv(file.output.stream(), *answer.world);
-        }
-        file.is_written = true;
-    }
-}
-
-void WorldValuesFiles::commit() {
-    for (auto& [path, file] : files_) {
-        if (file.is_written) {
-            file.output.commit();
-        }
-    }
-}
-
 namespace {
+
+/// The files into which a scene has the records of its queries written.
+class WorldValuesFiles {
+public:
+    /// `json`: the file of the answers; "-" is the standard output. Throws InputError for a file
+    /// that cannot be written, or that would replace an input or another output.
+    WorldValuesFiles(const Scene& scene, const std::optional<std::string>& json) {
+        std::vector<std::string> outputs;
+        if (json && *json != "-") {
+            outputs.push_back(*json);
+        }
+        std::vector<std::string> values;
+        for (const SceneQuery& query : scene.queries) {
+            if (query.problem.empty() && query.world && !query.world->values.empty()) {
+                values.push_back(query.world->values);
+            }
+        }
+        outputs.insert(outputs.end(), values.begin(), values.end());
+        require_different_files(scene.files, outputs);
+        for (const std::string& path : values) {
+            files_.try_emplace(path, path);
+        }
+    }
+
+    /// Writes the records of the answers that there are. Other files are left as they are.
+    void write(std::span<const SceneAnswer> answers) {
+        for (const SceneAnswer& answer : answers) {
+            if (answer.world == nullptr || answer.world->request->values.empty()) {
+                continue;
+            }
+            File& file = files_.at(answer.world->request->values);
+            if (is_npy(answer.world->request->values)) {
+                write_world_npy(file.output.stream(), *answer.world);
+            } else {
+                write_world_csv(file.output.stream(), *answer.world);
+            }
+            file.is_written = true;
+        }
+    }
+
+    /// Throws std::runtime_error if writing failed.
+    void commit() {
+        for (auto& [path, file] : files_) {
+            if (file.is_written) {
+                file.output.commit();
+            }
+        }
+    }
+
+private:
+    struct File {
+        explicit File(const std::string& path) : output(path) {}
+        OutputFile output;
+        bool is_written = false;
+    };
+    std::map<std::string, File> files_;  ///< by path
+};
 
 /// Lists what is wrong on the standard error; returns the exit status, that of bad input first.
 int report_problems(const SceneRunner& runner) {

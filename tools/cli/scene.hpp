@@ -1,7 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <tools/cli/settings_options.hpp>
+#include <tools/cli/options.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/output_file.hpp>
 #include <tools/io/scene.hpp>
@@ -14,28 +14,6 @@
 #include <vector>
 
 namespace nearfield::tools {
-
-/// The files into which a scene has the records of its queries written.
-class WorldValuesFiles {
-public:
-    /// `json`: the file of the answers; "-" is the standard output. Throws InputError for a file
-    /// that cannot be written, or that would replace an input or another output.
-    WorldValuesFiles(const Scene& scene, const std::optional<std::string>& json);
-
-    /// Writes the records of the answers that there are. Other files are left as they are.
-    void write(std::span<const SceneAnswer> answers);
-
-    /// Throws std::runtime_error if writing failed.
-    void commit();
-
-private:
-    struct File {
-        explicit File(const std::string& path) : output(path) {}
-        OutputFile output;
-        bool is_written = false;
-    };
-    std::map<std::string, File> files_;  ///< by path
-};
 
 /// The arguments of `nearfield scene`; texts are parsed when the command runs.
 struct SceneArguments {

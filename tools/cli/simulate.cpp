@@ -2,24 +2,21 @@
 
 #include <CLI/CLI.hpp>
 #include <tools/benchmark/measuring.hpp>
-#include <tools/cli/settings_options.hpp>
+#include <tools/cli/options.hpp>
 #include <tools/cli/simulate.hpp>
 #include <tools/common/interruptible.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/drawing/view.hpp>
 #include <tools/io/answer.hpp>
-#include <tools/io/frame_files.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_writer.hpp>
 #include <tools/io/output_file.hpp>
-#include <tools/io/summary.hpp>
 #include <tools/io/world_report.hpp>
-#include <tools/rendering/clearance_picture.hpp>
-#include <tools/rendering/page.hpp>
-#include <tools/rendering/scene_picture.hpp>
-#include <tools/simulation/clearance_scene.hpp>
+#include <tools/rendering/pictures.hpp>
+#include <tools/rendering/vulkan_painter.hpp>
+#include <tools/simulation/clearance_scenes.hpp>
 #include <tools/simulation/simulation_choice.hpp>
 #include <tools/simulation/world.hpp>
 

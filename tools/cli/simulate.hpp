@@ -1,7 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <tools/cli/settings_options.hpp>
+#include <tools/cli/options.hpp>
 
 #include <cstdint>
 #include <optional>

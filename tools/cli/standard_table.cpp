@@ -1,16 +1,15 @@
 #include <tools/benchmark/measuring.hpp>
 #include <tools/benchmark/table.hpp>
 #include <tools/benchmark/workloads.hpp>
-#include <tools/cli/settings_options.hpp>
-#include <tools/cli/standard_table.hpp>
+#include <tools/cli/bench.hpp>
+#include <tools/cli/options.hpp>
 #include <tools/common/interruptible.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_writer.hpp>
 #include <tools/io/output_file.hpp>
-#include <tools/io/query_json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -29,32 +28,25 @@ namespace {
 constexpr std::string_view automatic_name = "automatic";
 constexpr std::string_view technique_names[] = {"raster", "compute", "cpu", automatic_name};
 
-void add_result(FrameWork& work, const PenetrationResult& result) {
-    work.found += result.count;
-}
-void add_result(FrameWork& work, const IntersectionResult& result) {
-    work.found += result.count;
-}
-void add_result(FrameWork& work, const ContactResult& result) {
-    work.found += result.count;
-}
-void add_result(FrameWork& work, const IntersectionTestResult& result) {
-    work.found += result.intersects ? 1 : 0;
-}
-void add_result(FrameWork& work, const ContainmentResult& result) {
-    work.found += result.inside ? 1 : 0;
-}
-/// Closest points, separations, fields, times of impact and separation vectors.
-void add_result(FrameWork& work, const ResultSummary& /*result*/) {
-    ++work.found;
-}
-
 FrameWork work_of(const Scene& scene, const SceneRunner& runner) {
     FrameWork work;
     work.queries = runner.query_count();
     work.vertices = benchmark::vertex_count(scene);
     for (const SceneAnswer& answer : runner.answers()) {
-        std::visit([&](const auto& result) { add_result(work, result); }, answer.result);
+        work.found += std::visit(
+            [](const auto& result) -> std::uint64_t {
+                if constexpr (requires { result.count; }) {
+                    return result.count;
+                } else if constexpr (requires { result.inside; }) {
+                    return result.inside ? 1 : 0;
+                } else {
+                    // Other answers than those of intersection tests are always found.
+                    constexpr bool is_test =
+                        std::is_same_v<decltype(result), const IntersectionTestResult&>;
+                    return !is_test || result.intersects ? 1 : 0;
+                }
+            },
+            answer.result);
         for (const Region& region : summary_of(answer.result).regions) {
             work.cells += std::uint64_t{region.width} * region.height;
         }
@@ -153,60 +145,78 @@ std::optional<double> RowTimes::automatic_to_best(double benchmark::Spread::*of)
                                         : std::nullopt;
 }
 
-TechniqueRace::TechniqueRace(const Settings& settings) {
-    for (const std::string_view name : technique_names) {
-        Runner runner{std::string(name),
-                      parse_name<Technique>(std::string(name), "standard table"),
-                      {},
-                      {},
-                      {}};
-        AskedTechniques asked;
-        asked.add(runner.technique);
-        Settings with = settings;
-        with.timestamps = true;
-        Settings without = settings;
-        without.timestamps = false;
-        runner.missing = refusal_of([&] {
-            runner.context.emplace(open_context(without, asked));
-            runner.timed.emplace(open_context(with, asked));
-        });
-        runners_.push_back(std::move(runner));
-    }
-}
-
-RowTimes TechniqueRace::run(const benchmark::Row& row) {
-    RowTimes times{row.name, {}};
-    std::vector<std::unique_ptr<Entry>> entries;  // one per technique; null if it refuses
-    std::vector<benchmark::Contender> contenders;
-    const Scene scene = row.scene();
-    for (Runner& runner : runners_) {
-        TechniqueTime& time = times.techniques.emplace_back();
-        time.technique = runner.name;
-        time.refusal = runner.missing;
-        entries.push_back(
-            time.refusal.empty() ? enter(scene, runner.technique, *runner.context, time) : nullptr);
-        if (Entry* const entry = entries.back().get()) {
-            contenders.push_back({[entry] { return entry->run_frame(); }, {}});
-        }
-    }
-    benchmark::measure(contenders, {});
-    auto contender = contenders.begin();
-    for (std::size_t index = 0; index < entries.size(); ++index) {
-        if (entries[index] != nullptr) {
-            summarize(*entries[index], (contender++)->frames_ms, times.techniques[index]);
-            times.techniques[index].timings.passes =
-                passes_of(scene, runners_[index].technique, *runners_[index].timed);
-        }
-    }
-    return times;
-}
-
-std::string TechniqueRace::device_name() const {
-    const std::optional<Context>& first = runners_.front().context;
-    return first ? first->device_name() : std::string();
-}
-
 namespace {
+
+/// All techniques, each with its own context, so that none benefits from or disturbs what another
+/// keeps from frame to frame.
+class TechniqueRace {
+public:
+    explicit TechniqueRace(const Settings& settings) {
+        for (const std::string_view name : technique_names) {
+            Runner runner{std::string(name),
+                          parse_name<Technique>(std::string(name), "standard table"),
+                          {},
+                          {},
+                          {}};
+            AskedTechniques asked;
+            asked.add(runner.technique);
+            Settings with = settings;
+            with.timestamps = true;
+            Settings without = settings;
+            without.timestamps = false;
+            runner.missing = refusal_of([&] {
+                runner.context.emplace(open_context(without, asked));
+                runner.timed.emplace(open_context(with, asked));
+            });
+            runners_.push_back(std::move(runner));
+        }
+    }
+
+    [[nodiscard]] RowTimes run(const benchmark::Row& row) {
+        RowTimes times{row.name, {}};
+        std::vector<std::unique_ptr<Entry>> entries;  // one per technique; null if it refuses
+        std::vector<benchmark::Contender> contenders;
+        const Scene scene = row.scene();
+        for (Runner& runner : runners_) {
+            TechniqueTime& time = times.techniques.emplace_back();
+            time.technique = runner.name;
+            time.refusal = runner.missing;
+            entries.push_back(time.refusal.empty()
+                                  ? enter(scene, runner.technique, *runner.context, time)
+                                  : nullptr);
+            if (Entry* const entry = entries.back().get()) {
+                contenders.push_back({[entry] { return entry->run_frame(); }, {}});
+            }
+        }
+        benchmark::measure(contenders, {});
+        auto contender = contenders.begin();
+        for (std::size_t index = 0; index < entries.size(); ++index) {
+            if (entries[index] != nullptr) {
+                summarize(*entries[index], (contender++)->frames_ms, times.techniques[index]);
+                times.techniques[index].timings.passes =
+                    passes_of(scene, runners_[index].technique, *runners_[index].timed);
+            }
+        }
+        return times;
+    }
+
+    /// Empty if there is no device.
+    [[nodiscard]] std::string device_name() const {
+        const std::optional<Context>& first = runners_.front().context;
+        return first ? first->device_name() : std::string();
+    }
+
+private:
+    struct Runner {
+        std::string name;
+        Technique technique{};
+        std::string missing;             ///< why there is no context
+        std::optional<Context> context;  ///< empty if unavailable
+        std::optional<Context> timed;    ///< another one, with timestamps
+    };
+
+    std::vector<Runner> runners_;
+};
 
 std::string padded(std::string text, std::size_t width) {
     text.resize(std::max(text.size(), width), ' ');
@@ -259,64 +269,70 @@ void write_technique(JsonWriter& json, const TechniqueTime& time) {
     json.end_object();
 }
 
-}  // namespace
-
-TextTable::TextTable(std::ostream& stream, const Surroundings& surroundings) : stream_(stream) {
-    write_surroundings(stream_, surroundings);
-    stream_
-        << "\n\n"
-        << "Milliseconds of a whole frame, everything handed over anew: median (least; lower "
-           "quartile - upper quartile);\n"
-        << "gpu: of it on the device, by timestamps. Work: queries, vertices, grid cells -> "
-           "found. The last column is the\n"
-        << "median of automatic over that of the quickest other (and the same of the least).\n\n"
-        << "| " << padded("row", name_width) << " | " << padded("work", work_width);
-    for (const char* technique : {"raster", "compute", "cpu", "automatic"}) {
-        stream_ << " | " << padded(technique, cell_width);
-    }
-    stream_ << " | chose | to best |\n|---|---|---|---|---|---|---|---|\n" << std::flush;
-}
-
-std::string TextTable::cell(const TechniqueTime& time) {
-    if (!time.refusal.empty()) {
-        auto place = std::find(refusals_.begin(), refusals_.end(), time.refusal);
-        if (place == refusals_.end()) {
-            place = refusals_.insert(refusals_.end(), time.refusal);
+/// The table in Markdown, written row by row.
+class TextTable {
+public:
+    /// Writes the lines above the rows.
+    TextTable(std::ostream& stream, const Surroundings& surroundings) : stream_(stream) {
+        write_surroundings(stream_, surroundings);
+        stream_
+            << "\n\n"
+            << "Milliseconds of a whole frame, everything handed over anew: median (least; lower "
+               "quartile - upper quartile);\n"
+            << "gpu: of it on the device, by timestamps. Work: queries, vertices, grid cells -> "
+               "found. The last column is the\n"
+            << "median of automatic over that of the quickest other (and the same of the "
+               "least).\n\n"
+            << "| " << padded("row", name_width) << " | " << padded("work", work_width);
+        for (const char* technique : {"raster", "compute", "cpu", "automatic"}) {
+            stream_ << " | " << padded(technique, cell_width);
         }
-        return "refused [" + std::to_string(place - refusals_.begin() + 1) + "]";
+        stream_ << " | chose | to best |\n|---|---|---|---|---|---|---|---|\n" << std::flush;
     }
-    const benchmark::Spread& spread = time.frame_ms;
-    const std::optional<double> device = time.device_ms();
-    return three_digits(spread.median) + " (" + three_digits(spread.least) + "; " +
-           three_digits(spread.lower_quartile) + " - " + three_digits(spread.upper_quartile) + ")" +
-           (device ? " gpu " + three_digits(*device) : "");
-}
 
-void TextTable::add(const RowTimes& row) {
-    stream_ << "| " << padded(row.name, name_width) << " | "
-            << padded(work_text(work_of_row(row)), work_width);
-    for (const TechniqueTime& time : row.techniques) {
-        stream_ << " | " << padded(cell(time), cell_width);
+    void add(const RowTimes& row) {
+        stream_ << "| " << padded(row.name, name_width) << " | "
+                << padded(work_text(work_of_row(row)), work_width);
+        for (const TechniqueTime& time : row.techniques) {
+            stream_ << " | " << padded(cell(time), cell_width);
+        }
+        const TechniqueTime* const automatic = row.find("automatic");
+        const std::optional<double> ratio = row.automatic_to_best();
+        const std::optional<double> least = row.automatic_to_best(&benchmark::Spread::least);
+        stream_ << " | " << (automatic != nullptr ? automatic->answered_by : "") << " | "
+                << (ratio && least ? three_digits(*ratio) + " (" + three_digits(*least) + ")" : "")
+                << " |\n"
+                << std::flush;
     }
-    const TechniqueTime* const automatic = row.find("automatic");
-    const std::optional<double> ratio = row.automatic_to_best();
-    const std::optional<double> least = row.automatic_to_best(&benchmark::Spread::least);
-    stream_ << " | " << (automatic != nullptr ? automatic->answered_by : "") << " | "
-            << (ratio && least ? three_digits(*ratio) + " (" + three_digits(*least) + ")" : "")
-            << " |\n"
-            << std::flush;
-}
+    /// Writes the explanations of the refusals.
+    void finish() {
+        if (!refusals_.empty()) {
+            stream_ << '\n';
+        }
+        for (std::size_t index = 0; index < refusals_.size(); ++index) {
+            stream_ << '[' << index + 1 << "] " << refusals_[index] << '\n';
+        }
+    }
 
-void TextTable::finish() {
-    if (!refusals_.empty()) {
-        stream_ << '\n';
+private:
+    [[nodiscard]] std::string cell(const TechniqueTime& time) {
+        if (!time.refusal.empty()) {
+            auto place = std::find(refusals_.begin(), refusals_.end(), time.refusal);
+            if (place == refusals_.end()) {
+                place = refusals_.insert(refusals_.end(), time.refusal);
+            }
+            return "refused [" + std::to_string(place - refusals_.begin() + 1) + "]";
+        }
+        const benchmark::Spread& spread = time.frame_ms;
+        const std::optional<double> device = time.device_ms();
+        return three_digits(spread.median) + " (" + three_digits(spread.least) + "; " +
+               three_digits(spread.lower_quartile) + " - " + three_digits(spread.upper_quartile) +
+               ")" + (device ? " gpu " + three_digits(*device) : "");
     }
-    for (std::size_t index = 0; index < refusals_.size(); ++index) {
-        stream_ << '[' << index + 1 << "] " << refusals_[index] << '\n';
-    }
-}
 
-namespace {
+    std::ostream& stream_;
+    std::vector<std::string> refusals_;  // distinct; rows refer to them by number
+};
 
 /// Writes the table as JSON with a final line feed.
 void write_table_json(std::ostream& stream, std::span<const RowTimes> table,

@@ -1,6 +1,5 @@
-#include <tools/common/add_timings.hpp>
 #include <tools/common/device_pair_runner.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/io/query_request.hpp>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <tools/common/interruptible.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <unistd.h>
 
 #include <csignal>

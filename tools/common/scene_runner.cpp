@@ -1,6 +1,6 @@
-#include <tools/common/add_shape.hpp>
-#include <tools/common/add_timings.hpp>
-#include <tools/common/library_error.hpp>
+#include <nearfield/portable_math.hpp>
+
+#include <tools/common/library.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/query_request.hpp>
@@ -355,6 +355,325 @@ std::string SceneRunner::place_of(const SceneShape& shape) const {
 
 std::string SceneRunner::place_of(std::size_t query) const {
     return file_ + ": queries[" + std::to_string(query) + "]";
+}
+
+}  // namespace nearfield::tools
+
+// Which pairs of instances the queries of a scene ask about.
+
+namespace nearfield::tools {
+namespace {
+
+/// True if swapping A and B does not change the answer: then one order suffices.
+bool is_symmetric(QueryType type) {
+    return type == QueryType::separation || type == QueryType::intersection_test ||
+           type == QueryType::time_of_impact || type == QueryType::separation_vector;
+}
+
+/// A box that contains a shape throughout its motion from its pose to its end pose, however its
+/// vertices are rounded: shapes that touch but for rounding count as touching.
+Rectangle swept_box(const SceneShape& shape, const SceneInstance& instance) {
+    const Pose& start = instance.pose;
+    const Pose end = instance.end_pose.value_or(start);
+    constexpr double none = std::numeric_limits<double>::infinity();
+    Rectangle box{{none, none}, {-none, -none}};
+    double farthest = 0.0;   // vertex from the origin of the coordinates
+    double magnitude = 0.0;  // of where this is
+    const auto hold = [&box](Vector2 origin, Vector2 low, Vector2 high) {
+        box.min = {std::min(box.min.x, origin.x + low.x), std::min(box.min.y, origin.y + low.y)};
+        box.max = {std::max(box.max.x, origin.x + high.x), std::max(box.max.y, origin.y + high.y)};
+    };
+    for (const Ring& ring : shape.rings) {
+        for (const Vector2 vertex : ring) {
+            // A rotating shape stays within a circle about the origin of its coordinates.
+            const double radius = std::hypot(vertex.x, vertex.y);
+            const auto [sine, cosine] = sine_cosine(start.angle);
+            const Vector2 arm{cosine * vertex.x - sine * vertex.y,
+                              sine * vertex.x + cosine * vertex.y};
+            const bool turns = start.angle != end.angle;
+            const Vector2 low = turns ? Vector2{-radius, -radius} : arm;
+            const Vector2 high = turns ? Vector2{radius, radius} : arm;
+            hold(start.translation, low, high);
+            hold(end.translation, low, high);
+            farthest = std::max(farthest, radius);
+        }
+    }
+    for (const Vector2& origin : {start.translation, end.translation}) {
+        magnitude = std::max({magnitude, std::abs(origin.x), std::abs(origin.y)});
+    }
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * (magnitude + farthest);
+    box.min = {box.min.x - rounding, box.min.y - rounding};
+    box.max = {box.max.x + rounding, box.max.y + rounding};
+    return box;
+}
+
+bool come_within(const Rectangle& a, const Rectangle& b, double reach) {
+    return a.min.x - b.max.x <= reach && b.min.x - a.max.x <= reach && a.min.y - b.max.y <= reach &&
+           b.min.y - a.max.y <= reach;
+}
+
+}  // namespace
+
+/// The instances of two groups. Those of both may stand on either side of a pair.
+PairSelection SceneRunner::select(const GroupPair& groups) const {
+    std::map<std::size_t, unsigned> sides;
+    for (const std::size_t instance : groups.first.instances) {
+        sides[instance] |= 1U;
+    }
+    for (const std::size_t instance : groups.second.instances) {
+        sides[instance] |= 2U;
+    }
+    PairSelection selection;
+    std::vector<std::size_t> named;
+    for (const auto& [instance, side] : sides) {
+        named.push_back(instance);
+        if (is_usable(instance)) {
+            selection.sound.push_back(instance);
+            selection.instances.push_back(instances_[instance]);
+            selection.sides.push_back(side);
+        }
+    }
+    selection.names_of_bad = names_of_bad(named);
+    return selection;
+}
+
+/// The query of the pair it names, unless something is wrong with either.
+void SceneRunner::add_pair(std::size_t query) {
+    const SceneQuery& asked = scene_.queries[query];
+    std::string reason;
+    for (const std::size_t instance : {asked.a, asked.b}) {
+        const std::string& of_instance = instance_problems_[instance];
+        const std::string& problem =
+            of_instance.empty() ? shape_problems_[scene_.instances[instance].shape] : of_instance;
+        if (!problem.empty() && reason.find(problem) == std::string::npos) {
+            reason += (reason.empty() ? "" : "; ") + problem;
+        }
+    }
+    if (reason.empty()) {
+        add(query, asked.a, asked.b);
+    } else {
+        refuse({.query = query, .a = asked.a, .b = asked.b, .is_dependent = true}, reason);
+    }
+}
+
+/// Both orders of a pair, or the one whose first instance is of the first group, unless the groups
+/// do not form this pair.
+void SceneRunner::add_selected(std::size_t query, const PairSelection& among, InstancePair pair) {
+    const unsigned side_a = among.sides[pair.first];
+    const unsigned side_b = among.sides[pair.second];
+    const bool is_forward = (side_a & 1U) != 0 && (side_b & 2U) != 0;
+    const bool is_backward = (side_a & 2U) != 0 && (side_b & 1U) != 0;
+    const std::size_t a = among.sound[pair.first];
+    const std::size_t b = among.sound[pair.second];
+    if (!is_forward && !is_backward) {
+        return;
+    }
+    if (is_symmetric(scene_.queries[query].request.type)) {
+        add(query, is_forward ? a : b, is_forward ? b : a);
+    } else {
+        add(query, a, b);
+        add(query, b, a);
+    }
+}
+
+void SceneRunner::add_moving_pairs(std::size_t query, const PairSelection& among) {
+    const double reach = scene_.queries[query].request.contact_distance.value_or(0.0);
+    std::vector<Rectangle> boxes;
+    for (const std::size_t index : among.sound) {
+        const SceneInstance& instance = scene_.instances[index];
+        boxes.push_back(swept_box(scene_.shapes[instance.shape], instance));
+    }
+    for (std::uint32_t a = 0; a < boxes.size(); ++a) {
+        for (std::uint32_t b = a + 1; b < boxes.size(); ++b) {
+            if (come_within(boxes[a], boxes[b], reach)) {
+                add_selected(query, among, {a, b});
+            }
+        }
+    }
+}
+
+/// Those whose boxes come within the query's reach.
+void SceneRunner::add_near_pairs(std::size_t query, const PairSelection& among) {
+    const SceneQuery& all = scene_.queries[query];
+    const QueryRequest& request = all.request;
+    const double reach = request.type == QueryType::contacts
+                             ? request.contact_distance.value_or(request.tolerance)
+                             : all.reach;
+    const auto pairs = context_.find_overlapping_boxes(among.instances, reach);
+    if (!pairs.has_value() && bad_ == BadEntries::recorded) {
+        refuse({query, Entry::all, Entry::all},
+               place_of(query) + ": " + full_message(pairs.error()));
+        return;
+    }
+    require(pairs.error(), file_);
+    for (const InstancePair& pair : *pairs) {
+        add_selected(query, among, pair);
+    }
+}
+
+const PairSelection& SceneRunner::selection_of(std::size_t query) const {
+    return scene_.queries[query].between ? between_.at(query) : all_;
+}
+
+void SceneRunner::add_all_pairs(std::size_t query) {
+    const PairSelection& among = selection_of(query);
+    if (tables_.contains(query)) {
+        add_pending({.query = query, .a = Entry::all, .b = Entry::all, .is_table = true},
+                    Technique::compute);
+    } else if (scene_.queries[query].request.type == QueryType::time_of_impact) {
+        add_moving_pairs(query, among);
+    } else {
+        add_near_pairs(query, among);
+    }
+    if (!among.names_of_bad.empty()) {
+        refuse({.query = query, .a = Entry::all, .b = Entry::all, .is_dependent = true},
+               "without the pairs of instances that cannot be used: " + among.names_of_bad);
+    }
+}
+
+}  // namespace nearfield::tools
+
+// What a SceneRunner tells of its last frame.
+
+namespace nearfield::tools {
+
+std::size_t SceneRunner::pair_count() const {
+    std::size_t count = batch_.queries().size();
+    for (const auto& [query, table] : tables_) {
+        count += table.pair_count();
+    }
+    return count;
+}
+
+std::size_t SceneRunner::world_input_count() const {
+    std::size_t count = 0;
+    for (const Entry& entry : entries_) {
+        count += entry.is_world ? scene_.queries[entry.query].world->size() : 0;
+    }
+    return count;
+}
+
+/// Calls `action(entry, status)` for each entry, and for each row of a table that is an error.
+template <class Action>
+void SceneRunner::for_each_status(const Action& action) const {
+    for (const Entry& entry : entries_) {
+        action(entry, summary_of(result_of(entry)).status);
+        if (!entry.is_table) {
+            continue;
+        }
+        for (const DevicePairRunner::Row& row : tables_.at(entry.query).rows()) {
+            const Status& status = summary_of(row.result).status;
+            if (!status.ok()) {
+                action(entry, status);
+            }
+        }
+    }
+}
+
+void SceneRunner::require_results() const {
+    for_each_status([this](const Entry& entry, const Status& status) {
+        require(status, place_of(entry.query));
+    });
+}
+
+std::vector<Status> SceneRunner::problems() const {
+    std::vector<Status> problems;
+    for (const SceneGroup& group : scene_.groups) {
+        if (!group.problem.empty()) {
+            problems.emplace_back(StatusCode::invalid_query, group.problem);
+        }
+    }
+    for (const std::vector<std::string>* const of : {&shape_problems_, &instance_problems_}) {
+        for (const std::string& problem : *of) {
+            if (!problem.empty()) {
+                problems.emplace_back(StatusCode::invalid_shape, problem);
+            }
+        }
+    }
+    for_each_status([&](const Entry& entry, const Status& status) {
+        if (entry.is_refused && !entry.is_dependent) {
+            problems.push_back(status);
+        } else if (!entry.is_refused && !status.ok() && status.code() != StatusCode::cancelled) {
+            problems.emplace_back(status.code(), place_of(entry.query) + ": " + status.text());
+        }
+    });
+    return problems;
+}
+
+std::size_t SceneRunner::dependent_count() const {
+    return static_cast<std::size_t>(std::count_if(
+        entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.is_dependent; }));
+}
+
+std::size_t SceneRunner::cancelled_count() const {
+    return static_cast<std::size_t>(
+        std::count_if(entries_.begin(), entries_.end(), [this](const Entry& entry) {
+            return summary_of(result_of(entry)).status.code() == StatusCode::cancelled;
+        }));
+}
+
+const AnyResult& SceneRunner::result_of(const Entry& entry) const {
+    return is_of_batch(entry) ? results_.results[entry.result] : outside_batch_[entry.result];
+}
+
+const QueryTime* SceneRunner::time_of(const Entry& entry) const {
+    const bool is_timed = batch_.times_queries() && is_of_batch(entry);
+    return is_timed ? &results_.timings.queries[entry.result] : nullptr;
+}
+
+SceneAnswer SceneRunner::answer_of(const Entry& entry) const {
+    const SceneQuery& query = scene_.queries[entry.query];
+    const AnyResult& result = result_of(entry);
+    const bool is_answered_world = entry.is_world && summary_of(result).status.ok();
+    const bool has_pair = entry.a != Entry::all;
+    return {query.request,
+            has_pair ? scene_.instances[entry.a].name : query.name_a,
+            has_pair ? scene_.instances[entry.b].name : query.name_b,
+            result,
+            query.kind,
+            is_answered_world ? &worlds_->answer_of(entry.query) : nullptr,
+            time_of(entry)};
+}
+
+std::vector<SceneAnswer> SceneRunner::answers() const {
+    std::vector<SceneAnswer> answers;
+    const auto append = [&](const SceneQuery& query, const SceneAnswer& answer) {
+        // Boxes within reach of each other may hold shapes that are not.
+        const auto* const separation = std::get_if<SeparationResult>(&answer.result);
+        const bool is_far = separation != nullptr && separation->distance > query.reach;
+        const bool is_left_out =
+            query.hits_only && summary_of(answer.result).status.ok() && !is_hit(answer.result);
+        if (!(query.all_pairs && is_far) && !is_left_out) {
+            answers.push_back(answer);
+        }
+    };
+    for (const Entry& entry : entries_) {
+        const SceneQuery& query = scene_.queries[entry.query];
+        if (!entry.is_table || !summary_of(result_of(entry)).status.ok()) {
+            append(query, answer_of(entry));
+            continue;
+        }
+        for (const DevicePairRunner::Row& row : tables_.at(entry.query).rows()) {
+            append(query, {query.request, scene_.instances[row.a].name,
+                           scene_.instances[row.b].name, row.result, query.kind});
+        }
+    }
+    return answers;
+}
+
+std::string_view SceneRunner::technique() const {
+    std::optional<Technique> first;
+    for (const Entry& entry : entries_) {
+        const ResultSummary& summary = summary_of(result_of(entry));
+        if (!summary.status.ok()) {
+            continue;
+        }
+        if (first && *first != summary.technique) {
+            return "mixed";
+        }
+        first = summary.technique;
+    }
+    return first ? to_string(*first) : "none";
 }
 
 }  // namespace nearfield::tools

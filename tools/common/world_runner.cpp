@@ -1,5 +1,4 @@
-#include <tools/common/add_timings.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/common/world_runner.hpp>
 #include <tools/io/world_request.hpp>
 

@@ -3,6 +3,8 @@
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 
+#include <tools/drawing/canvas.hpp>
+#include <tools/drawing/view.hpp>
 #include <tools/io/answer.hpp>
 
 #include <string>
@@ -40,5 +42,14 @@ struct Figure {
 
 /// Draws a figure; returns the contents of a PNG file.
 [[nodiscard]] std::string draw_figure(const Figure& figure);
+
+/// Single marks of each kind, also used in the legend.
+void draw_point_mark(Canvas& canvas, Vector2 point);
+void draw_way_out(Canvas& canvas, Vector2 point, Vector2 nearest);
+void draw_deepest_mark(Canvas& canvas, Vector2 point, Vector2 nearest);
+void draw_contact_mark(Canvas& canvas, Vector2 point, Vector2 tip);
+void draw_stretch_mark(Canvas& canvas, Vector2 first, Vector2 last);
+void draw_closest_pair(Canvas& canvas, Vector2 on_a, Vector2 on_b);
+void draw_sample_mark(Canvas& canvas, Vector2 center, double side);
 
 }  // namespace nearfield::tools

@@ -1,8 +1,8 @@
 #include <tools/drawing/canvas.hpp>
 #include <tools/drawing/field_layer.hpp>
+#include <tools/drawing/figure.hpp>
 #include <tools/drawing/legend.hpp>
-#include <tools/drawing/marks.hpp>
-#include <tools/io/summary.hpp>
+#include <tools/io/answer.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,11 @@
 #include <nearfield/result.hpp>
 #include <nearfield/tile.hpp>
 
+#include <tools/io/json_writer.hpp>
 #include <tools/io/query_request.hpp>
 
+#include <ostream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -76,5 +79,38 @@ struct SceneAnswer {
 [[nodiscard]] inline const ResultSummary& summary_of(const AnyResult& result) {
     return std::visit([](const auto& any) -> const ResultSummary& { return any; }, result);
 }
+
+/// Writes the JSON of one query with a final line feed.
+void write_query_json(std::ostream& stream, const Answer& answer);
+
+/// Writes the JSON of a scene's answers with a final line feed. `technique`: the one for all of
+/// them.
+void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers,
+                      const Timings& timings, const std::string& device,
+                      std::string_view technique);
+
+/// Writes the member `timings_ms` of an object that is open: `total`, and the stages that took
+/// place.
+void write_timings(JsonWriter& json, const Timings& timings);
+
+/// Writes a member of an object that is open: the time of each pass by its name.
+void write_passes(JsonWriter& json, std::string_view name, std::span<const PassTime> passes);
+
+/// Formats a number for people: six significant digits.
+[[nodiscard]] std::string short_number(double number);
+
+/// Writes a line with an item: its name, and its text in a column of its own.
+void write_item(std::ostream& stream, std::string_view name, const std::string& text);
+
+/// Writes an answer for people, one item per line.
+void write_summary(std::ostream& stream, const Answer& answer);
+
+/// Writes the answers of a scene for people.
+void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answers,
+                         const Timings& timings, const std::string& device,
+                         std::string_view technique);
+
+/// Writes the stages of a batch and their passes for people, one item per line.
+void write_timings_summary(std::ostream& stream, const Timings& timings);
 
 }  // namespace nearfield::tools

@@ -5,7 +5,7 @@
 #include <tools/io/arc_chain.hpp>
 #include <tools/io/dxf.hpp>
 #include <tools/io/input_error.hpp>
-#include <tools/io/skipped_parts.hpp>
+#include <tools/io/simple_features.hpp>
 #include <tools/io/text_file.hpp>
 #include <tools/io/values.hpp>
 

@@ -2,7 +2,7 @@
 
 #include <nearfield/curve.hpp>
 
-#include <tools/io/skipped_parts.hpp>
+#include <tools/io/simple_features.hpp>
 #include <tools/io/values.hpp>
 
 #include <string>

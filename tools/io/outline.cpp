@@ -1,11 +1,9 @@
 #include <tools/io/dxf.hpp>
-#include <tools/io/geojson.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/outline.hpp>
-#include <tools/io/svg_path.hpp>
+#include <tools/io/simple_features.hpp>
+#include <tools/io/svg_values.hpp>
 #include <tools/io/values.hpp>
-#include <tools/io/wkb.hpp>
-#include <tools/io/wkt.hpp>
 
 #include <algorithm>
 #include <string_view>

@@ -5,9 +5,12 @@
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 
+#include <tools/io/json_document.hpp>
 #include <tools/io/names.hpp>
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -158,5 +161,25 @@ inline constexpr auto names<ImpactState> = std::to_array<NamedValue<ImpactState>
 /// Adds a request between two instances to a batch. The request must outlive the batch's run. The
 /// result has the same index among the results as the query in the batch.
 void add_query(Batch& batch, const QueryRequest& request, const Instance& a, const Instance& b);
+
+/// A member of a query besides its shapes and its tolerance: how scenes and the command line name
+/// it, and how each sets it. Both throw InputError.
+struct QueryMember {
+    std::string key;   ///< in a scene; the option of the command line has dashes
+    std::string form;  ///< of its value, in the help
+    std::string help;
+    /// Sets it from the text of an option; empty if only scenes have the member.
+    std::function<void(QueryRequest&, const std::string& text, const std::string& option)> parse;
+    std::function<void(QueryRequest&, const JsonPlace&)> read;
+};
+
+/// What the answer of a kind holds, in the order of the help.
+[[nodiscard]] std::vector<QueryMember> answer_members(QueryType type);
+/// How it is found. Scenes have `strategy` only in the kinds that are sampled.
+[[nodiscard]] std::vector<QueryMember> technique_members(QueryType type);
+
+/// Reads what a query of a scene between instances asks for: everything but its instances. Throws
+/// InputError with the place, UnknownMember for a member that queries of its kind do not have.
+[[nodiscard]] QueryRequest read_query_request(const JsonPlace& place);
 
 }  // namespace nearfield::tools

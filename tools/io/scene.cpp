@@ -1,10 +1,10 @@
-#include <tools/io/geojson.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_document.hpp>
 #include <tools/io/outline.hpp>
-#include <tools/io/query_members.hpp>
+#include <tools/io/query_request.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/shape_rings.hpp>
+#include <tools/io/simple_features.hpp>
 #include <tools/io/text_file.hpp>
 #include <tools/io/values.hpp>
 

@@ -1,8 +1,7 @@
 #include <nearfield/portable_math.hpp>
 
 #include <tools/io/svg.hpp>
-#include <tools/io/svg_length.hpp>
-#include <tools/io/svg_path.hpp>
+#include <tools/io/svg_values.hpp>
 #include <tools/io/svg_walk.hpp>
 
 #include <algorithm>

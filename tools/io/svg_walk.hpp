@@ -2,7 +2,7 @@
 
 #include <tools/io/svg.hpp>
 #include <tools/io/svg_document.hpp>
-#include <tools/io/svg_length.hpp>
+#include <tools/io/svg_values.hpp>
 
 #include <array>
 #include <cstddef>

@@ -90,10 +90,6 @@ std::string to_text(std::string bytes, const std::string& name) {
     return bytes;
 }
 
-std::string read_text(const std::string& path) {
-    return to_text(read_bytes(path), path);
-}
-
 std::string text_position(const std::string& path, std::string_view text, std::size_t offset) {
     const std::string_view before = text.substr(0, std::min(offset, text.size()));
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;

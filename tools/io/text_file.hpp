@@ -29,10 +29,6 @@ struct InputFile {
 /// there, or where a zero byte says that it is no text.
 [[nodiscard]] std::string to_text(std::string bytes, const std::string& name);
 
-/// The text of a file, without a leading UTF-8 byte order mark. Throws InputError for what is
-/// missing, unreadable, a folder, empty or not text.
-[[nodiscard]] std::string read_text(const std::string& path);
-
 /// "FILE:LINE:COLUMN" of a byte in a text; lines and columns (in bytes) start at 1.
 [[nodiscard]] std::string text_position(const std::string& path, std::string_view text,
                                         std::size_t offset);

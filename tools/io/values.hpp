@@ -20,6 +20,9 @@ inline bool is_letter(char c) {
 inline bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
+inline bool is_in(std::string_view letters, char c) {
+    return letters.find(c) != std::string_view::npos;
+}
 inline char to_upper(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }

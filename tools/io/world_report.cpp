@@ -1,7 +1,6 @@
-#include <tools/io/npy.hpp>
+#include <tools/io/answer.hpp>
 #include <tools/io/number_table.hpp>
 #include <tools/io/query_request.hpp>
-#include <tools/io/summary.hpp>
 #include <tools/io/world_report.hpp>
 #include <tools/io/world_request.hpp>
 

@@ -1,4 +1,4 @@
-#include <tools/io/summary.hpp>
+#include <tools/io/answer.hpp>
 #include <tools/io/world_report.hpp>
 #include <tools/peers/agreement.hpp>
 

@@ -8,7 +8,7 @@
 #include <sched.h>
 #include <tools/benchmark/table.hpp>
 #include <tools/common/interruptible.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/io/json_writer.hpp>
 #include <tools/io/output_file.hpp>
 #include <tools/peers/race.hpp>

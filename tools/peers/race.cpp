@@ -1,5 +1,4 @@
-#include <tools/common/add_shape.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/peers/agreement.hpp>
 
 #include <algorithm>

@@ -64,7 +64,7 @@ hash_program() {
         same+=(-fno-tree-slp-vectorize)
     fi
     find "$root"/tools/{hash,simulation} "$root"/tools/benchmark/workloads.cpp \
-        "$root"/tools/common/library_error.cpp "$root"/tools/io/{geojson,json_document,skipped_parts,text_file,values}.cpp \
+        "$root"/tools/common/library.cpp "$root"/tools/io/{json_document,simple_features,text_file,values}.cpp \
         -name '*.cpp' ! -name simulation_choice.cpp -print0 |
         xargs -0 -P "$jobs" -I FILE \
             sh -c 'file=$1 && shift && "$@" -o "$0/$(basename "$file" .cpp).o" -c "$file"' \

@@ -1,5 +1,5 @@
 #include <tools/simulation/deformable_body.hpp>
-#include <tools/simulation/mass_properties.hpp>
+#include <tools/simulation/rigid_body.hpp>
 
 #include <algorithm>
 #include <cmath>

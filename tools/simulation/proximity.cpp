@@ -1,4 +1,4 @@
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/simulation/proximity.hpp>
 
 #include <algorithm>

@@ -5,9 +5,8 @@
 #include <embedded/sri_lanka_10m.hpp>
 #include <embedded/sweden_50m.hpp>
 #include <tools/benchmark/workloads.hpp>
-#include <tools/io/geojson.hpp>
+#include <tools/io/simple_features.hpp>
 #include <tools/simulation/deformable_body.hpp>
-#include <tools/simulation/mass_properties.hpp>
 #include <tools/simulation/plane.hpp>
 #include <tools/simulation/rigid_body.hpp>
 #include <tools/simulation/scenes.hpp>

@@ -4,7 +4,7 @@
 
 #include <tools/drawing/view.hpp>
 #include <tools/io/names.hpp>
-#include <tools/simulation/clearance_scene.hpp>
+#include <tools/simulation/clearance_scenes.hpp>
 #include <tools/simulation/world.hpp>
 
 #include <cstdint>

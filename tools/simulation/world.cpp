@@ -1,6 +1,5 @@
-#include <tools/simulation/backtracking.hpp>
-#include <tools/simulation/penalty.hpp>
 #include <tools/simulation/plane.hpp>
+#include <tools/simulation/responses.hpp>
 #include <tools/simulation/world.hpp>
 
 #include <algorithm>

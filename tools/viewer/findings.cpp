@@ -1,6 +1,6 @@
 #include <nearfield/diagnostics.hpp>
 
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/drawing/canvas.hpp>
 #include <tools/simulation/plane.hpp>
 #include <tools/viewer/findings.hpp>

@@ -3,7 +3,7 @@
 #include <nearfield/context.hpp>
 #include <nearfield/tile.hpp>
 
-#include <tools/rendering/scene_picture.hpp>
+#include <tools/rendering/pictures.hpp>
 #include <tools/viewer/simulation.hpp>
 
 #include <string>

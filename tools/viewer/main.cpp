@@ -1,7 +1,7 @@
 #include <nearfield/version.hpp>
 
 #include <CLI/CLI.hpp>
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/input_error.hpp>

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <SDL.h>
+#include <tools/rendering/drawing.hpp>
+#include <tools/rendering/vulkan_painter.hpp>
 #include <tools/viewer/findings.hpp>
 #include <tools/viewer/simulation.hpp>
 
@@ -7,6 +10,26 @@
 #include <string>
 
 namespace nearfield::viewer {
+
+/// Dear ImGui with SDL's events, drawn by the tools' painter.
+class Gui {
+public:
+    explicit Gui(SDL_Window* window);
+    ~Gui();
+    Gui(const Gui&) = delete;
+    Gui& operator=(const Gui&) = delete;
+
+    /// The glyph image for the painter.
+    [[nodiscard]] static tools::Letters letters();
+    static void handle(const SDL_Event& event);
+    /// True if a widget uses the mouse or the keyboard.
+    [[nodiscard]] static bool wants_mouse();
+    [[nodiscard]] static bool wants_keys();
+
+    /// Widgets are added between this call and add_to().
+    static void begin();
+    static void add_to(tools::Mesh& mesh);
+};
 
 /// The user's settings in the viewer.
 struct Wishes {

@@ -1,4 +1,4 @@
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/simulation/simulation_choice.hpp>
 #include <tools/viewer/simulation.hpp>

@@ -3,7 +3,7 @@
 #include <nearfield/context.hpp>
 #include <nearfield/host.hpp>
 
-#include <tools/simulation/clearance_scene.hpp>
+#include <tools/simulation/clearance_scenes.hpp>
 #include <tools/simulation/world.hpp>
 #include <tools/viewer/drag.hpp>
 

@@ -1,14 +1,39 @@
 #include <nearfield/diagnostics.hpp>
 
-#include <tools/common/library_error.hpp>
+#include <tools/common/library.hpp>
 #include <tools/io/input_error.hpp>
-#include <tools/rendering/clearance_picture.hpp>
+#include <tools/rendering/pictures.hpp>
+#include <tools/simulation/plane.hpp>
 #include <tools/viewer/viewer.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace nearfield::viewer {
+
+using simulation::operator+;
+using simulation::operator-;
+using simulation::operator*;
+
+void Script::play(std::uint32_t frame, const tools::View& view) const {
+    const double part = std::min(1.0, 2.0 * frame / frames);
+    const Vector2 at = view.to_page(from + part * (to - from));
+    SDL_Event event{};
+    event.type = frame == 0 ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEMOTION;
+    const auto x = static_cast<Sint32>(std::lround(at.x));
+    const auto y = static_cast<Sint32>(std::lround(at.y));
+    if (frame == 0) {
+        event.button.button = SDL_BUTTON_LEFT;
+        event.button.x = x;
+        event.button.y = y;
+    } else {
+        event.motion.x = x;
+        event.motion.y = y;
+    }
+    SDL_PushEvent(&event);
+}
+
 namespace {
 
 constexpr int first_width = 1280;

@@ -1,16 +1,26 @@
 #pragma once
 
-#include <tools/viewer/gui.hpp>
+#include <SDL.h>
+#include <tools/drawing/view.hpp>
 #include <tools/viewer/panel.hpp>
 #include <tools/viewer/screen.hpp>
-#include <tools/viewer/script.hpp>
 #include <tools/viewer/simulation.hpp>
-#include <tools/viewer/window.hpp>
 
 #include <cstdint>
 #include <optional>
 
 namespace nearfield::viewer {
+
+/// Simulated mouse input: it presses at one place of the scene, moves to another in the first half
+/// of the frames, and holds until the end.
+struct Script {
+    Vector2 from;
+    Vector2 to;
+    std::uint32_t frames = 0;
+
+    /// Pushes this frame's events into the event queue, as real mouse events.
+    void play(std::uint32_t frame, const tools::View& view) const;
+};
 
 /// A window with a scene. A frame handles events, runs the simulation and its queries, and paints.
 class Viewer {

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
-#include <tools/cli/paper_tables.hpp>
-#include <tools/cli/standard_table.hpp>
+#include <tools/cli/bench.hpp>
 #include <tools/simulation/rigid_body.hpp>
 #include <tools/simulation/scene.hpp>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <tools/cli/settings_options.hpp>
+#include <tools/cli/options.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/unit/common/device_scene_test.hpp>
-#include <tools/io/query_json.hpp>
+#include <tools/io/answer.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "support.hpp"
 
 #include <tools/io/dxf.hpp>
-#include <tools/io/skipped_parts.hpp>
+#include <tools/io/simple_features.hpp>
 
 #include <sstream>
 #include <string>

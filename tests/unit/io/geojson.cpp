@@ -1,7 +1,7 @@
 #include "support.hpp"
 
 #include <gtest/gtest.h>
-#include <tools/io/geojson.hpp>
+#include <tools/io/simple_features.hpp>
 
 #include <string>
 #include <vector>

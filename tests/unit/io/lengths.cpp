@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <tools/io/svg_length.hpp>
+#include <tools/io/svg_values.hpp>
 #include <tools/io/values.hpp>
 
 #include <string>

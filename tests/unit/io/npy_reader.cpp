@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <tools/io/input_error.hpp>
-#include <tools/io/npy.hpp>
+#include <tools/io/number_table.hpp>
 
 #include <cstdint>
 #include <cstring>

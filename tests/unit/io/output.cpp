@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <tests/support/folder.hpp>
-#include <tools/io/npy.hpp>
+#include <tools/io/answer.hpp>
+#include <tools/io/number_table.hpp>
 #include <tools/io/output_file.hpp>
-#include <tools/io/query_json.hpp>
 
 #include <cmath>
 #include <cstring>

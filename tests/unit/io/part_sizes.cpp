@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
-#include <tools/io/geojson.hpp>
 #include <tools/io/outline.hpp>
-#include <tools/io/wkb.hpp>
-#include <tools/io/wkt.hpp>
+#include <tools/io/simple_features.hpp>
 
 #include <cstdint>
 #include <string>

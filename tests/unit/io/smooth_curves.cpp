@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <tools/io/svg_path.hpp>
+#include <tools/io/svg_values.hpp>
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <tools/io/summary.hpp>
+#include <tools/io/answer.hpp>
 
 #include <numbers>
 #include <sstream>

@@ -4,7 +4,7 @@
 #include <tests/support/folder.hpp>
 #include <tools/io/outline.hpp>
 #include <tools/io/svg.hpp>
-#include <tools/io/svg_path.hpp>
+#include <tools/io/svg_values.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tests/support/folder.hpp>
 #include <tools/io/outline.hpp>
-#include <tools/io/wkb.hpp>
+#include <tools/io/simple_features.hpp>
 
 #include <bit>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tests/support/folder.hpp>
 #include <tools/io/outline.hpp>
-#include <tools/io/wkt.hpp>
+#include <tools/io/simple_features.hpp>
 
 #include <string>
 #include <vector>

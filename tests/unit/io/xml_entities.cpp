@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <tools/io/svg.hpp>
-#include <tools/io/xml_entities.hpp>
+#include <tools/io/svg_document.hpp>
 
 #include <cstddef>
 #include <string>
