@@ -1,6 +1,6 @@
 #include "live_contacts.hpp"
 
-#include "value_of.hpp"
+#include "resources.hpp"
 
 namespace nearfield::examples {
 namespace {

@@ -1,7 +1,6 @@
 #include "own_device.hpp"
 
-#include "owned.hpp"
-#include "value_of.hpp"
+#include "resources.hpp"
 
 #include <nearfield/requirements.hpp>
 

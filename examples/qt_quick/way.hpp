@@ -26,9 +26,4 @@ public:
 /// The same, but Qt renders into our own image instead of a window.
 [[nodiscard]] std::unique_ptr<Way> into_own_image();
 
-/// Creates the instance, or throws if this Qt, its platform or this machine has no Vulkan.
-void create(QVulkanInstance& instance);
-/// Waits until the window system shows the window, then renders as Way::render.
-QImage render_window(QQuickView& view);
-
 }  // namespace nearfield::examples

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/own_device.hpp"
-#include "common/owned.hpp"
+#include "common/resources.hpp"
 
 #include <cstdint>
 #include <optional>

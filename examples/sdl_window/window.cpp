@@ -1,6 +1,6 @@
 #include "window.hpp"
 
-#include "common/owned.hpp"
+#include "common/resources.hpp"
 
 #include <SDL_vulkan.h>
 

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <tools/benchmark/measuring.hpp>
-#include <tools/benchmark/table.hpp>
+#include <tools/benchmark/workloads.hpp>
 #include <tools/cli/options.hpp>
 #include <tools/simulation/scene.hpp>
 

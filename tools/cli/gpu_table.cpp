@@ -4,7 +4,6 @@
 #include <nearfield/world_pairs.hpp>
 
 #include <tools/benchmark/measuring.hpp>
-#include <tools/benchmark/table.hpp>
 #include <tools/benchmark/workloads.hpp>
 #include <tools/cli/bench.hpp>
 #include <tools/common/interruptible.hpp>

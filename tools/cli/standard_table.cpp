@@ -1,5 +1,4 @@
 #include <tools/benchmark/measuring.hpp>
-#include <tools/benchmark/table.hpp>
 #include <tools/benchmark/workloads.hpp>
 #include <tools/cli/bench.hpp>
 #include <tools/cli/options.hpp>

@@ -28,6 +28,40 @@
 namespace nearfield::hash {
 namespace {
 
+/// Random numbers by integer arithmetic alone (splitmix64), so that they are the same everywhere.
+class Integers {
+public:
+    explicit Integers(std::uint64_t seed) : state_(seed) {}
+
+    std::uint64_t next() {
+        state_ += 0x9E3779B97F4A7C15;
+        std::uint64_t z = state_;
+        z = (z ^ z >> 30U) * 0xBF58476D1CE4E5B9;
+        z = (z ^ z >> 27U) * 0x94D049BB133111EB;
+        return z ^ z >> 31U;
+    }
+    /// From 0 to `count` - 1.
+    std::uint32_t below(std::uint32_t count) {
+        return static_cast<std::uint32_t>((next() >> 32U) * count >> 32U);
+    }
+    /// A multiple of 2^-52 in [low, low + length).
+    double from(double low, double length) {
+        return low + length * (static_cast<double>(next() >> 12U) * 0x1p-52);
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+/// Two shapes, and how large their details are.
+struct Pair {
+    std::vector<Ring> a;
+    std::vector<Ring> b;
+    Pose pose_a;
+    Pose pose_b;
+    double tolerance = 0.0;
+};
+
 constexpr double turn = 2.0 * std::numbers::pi;
 
 /// Vertices at equal angles and random distances, from `least` to 1.
@@ -75,8 +109,8 @@ Ring tangle(Integers& integers) {
     return ring;
 }
 
-}  // namespace
-
+/// A random shape of up to about 40 vertices, within 1 or so of the origin: a star, a spiky star,
+/// one with a hole, a ring that crosses itself, or a polygon on a lattice.
 std::vector<Ring> any_shape(Integers& integers) {
     switch (integers.below(6)) {
         case 0:
@@ -96,6 +130,9 @@ std::vector<Ring> any_shape(Integers& integers) {
     }
 }
 
+/// A random pair that overlaps, touches or is close. Half of the pairs are degenerate: a shape with
+/// itself, also moved by its own coordinates or by almost nothing, and shapes on one lattice. Some
+/// are far from the origin.
 Pair any_pair(Integers& integers) {
     Pair pair;
     pair.a = any_shape(integers);
@@ -131,7 +168,12 @@ Pair any_pair(Integers& integers) {
     return pair;
 }
 
-namespace {
+/// Two shapes of a context at their poses.
+struct PlacedPair {
+    Instance a;
+    Instance b;
+    double tolerance = 0.0;
+};
 
 constexpr Technique cpu = Technique::cpu;
 
@@ -205,16 +247,15 @@ void ask_of_shapes(const PlacedPair& pair, std::uint64_t max_work, Batch& batch)
     batch.add(impact);
 }
 
-}  // namespace
-
+/// Appends every kind of query that Technique::cpu answers, with every option that makes a
+/// difference to it. `points`: where fields are asked at points; they must outlive the batch.
+/// `max_work`: of separation vectors.
 void ask_everything(const PlacedPair& pair, std::span<const Vector2> points, std::uint64_t max_work,
                     Batch& batch) {
     ask_of_points(pair, batch);
     ask_of_cells(pair, points, batch);
     ask_of_shapes(pair, max_work, batch);
 }
-
-namespace {
 
 /// Runs a batch and adds its answers.
 void add_answers(Context& context, const Batch& batch, Results& results, AnswerHash& hash) {

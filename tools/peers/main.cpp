@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <sched.h>
-#include <tools/benchmark/table.hpp>
+#include <tools/benchmark/workloads.hpp>
 #include <tools/common/interruptible.hpp>
 #include <tools/common/library.hpp>
 #include <tools/io/json_writer.hpp>

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <tools/benchmark/table.hpp>
 #include <tools/benchmark/workloads.hpp>
 
 #include <algorithm>

@@ -1,17 +1,86 @@
-#include "common/own_device.hpp"
-#include "common/resources.hpp"
 #include "way.hpp"
 
+#include "common/own_device.hpp"
+#include "common/resources.hpp"
+
 #include <QCoreApplication>
+#include <QGuiApplication>
+#include <QQuickGraphicsConfiguration>
 #include <QQuickGraphicsDevice>
 #include <QQuickRenderControl>
 #include <QQuickRenderTarget>
 #include <QUrl>
+#include <QVersionNumber>
 #include <QVulkanInstance>
+#include <optional>
 #include <stdexcept>
 
 namespace nearfield::examples {
 namespace {
+
+/// Creates the instance, or throws if this Qt, its platform or this machine has no Vulkan.
+void create(QVulkanInstance& instance) {
+    if (!instance.create()) {
+        const QString text =
+            QString("there is no Vulkan instance on Qt's platform \"%1\" (VkResult %2)")
+                .arg(QGuiApplication::platformName())
+                .arg(instance.errorCode());
+        throw std::runtime_error(text.toStdString());
+    }
+}
+
+/// Waits until the window system shows the window, then renders as Way::render.
+QImage render_window(QQuickView& view) {
+    view.show();
+    while (!view.isExposed()) {
+        QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    }
+    return view.grabWindow();
+}
+
+class OnDeviceOfQt : public Way {
+public:
+    OnDeviceOfQt() {
+        // By default Qt would create a Vulkan 1.0 instance.
+        instance_.setApiVersion(QVersionNumber(1, 1));
+        instance_.setExtensions(QQuickGraphicsConfiguration::preferredInstanceExtensions());
+        create(instance_);
+        view_.setVulkanInstance(&instance_);
+    }
+
+    QQuickView& view() override { return view_; }
+    QImage render() override { return render_window(view_); }
+
+private:
+    QVulkanInstance instance_;
+    QQuickView view_;  // and with it Qt's device: destroyed before the instance
+};
+
+class OnOwnDevice : public Way {
+public:
+    OnOwnDevice() : own_instance_(surface_extensions()) {
+        instance_.setVkInstance(own_instance_.get());
+        create(instance_);
+        view_.setVulkanInstance(&instance_);
+        view_.create();
+        device_.emplace(own_instance_.get(), [this](VkPhysicalDevice device, std::uint32_t family) {
+            return instance_.supportsPresent(device, family, &view_);
+        });
+        view_.setGraphicsDevice(
+            QQuickGraphicsDevice::fromDeviceObjects(device_->physical_device(), device_->device(),
+                                                    static_cast<int>(device_->queue_family())));
+    }
+
+    QQuickView& view() override { return view_; }
+    QImage render() override { return render_window(view_); }
+
+private:
+    // Destruction order: the window, the device, Qt's wrapper of the instance, the instance.
+    OwnInstance own_instance_;
+    QVulkanInstance instance_;
+    std::optional<OwnDevice> device_;
+    QQuickView view_;
+};
 
 constexpr VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
 constexpr VkImageLayout layout_after =
@@ -78,6 +147,14 @@ private:
 };
 
 }  // namespace
+
+std::unique_ptr<Way> on_device_of_qt() {
+    return std::make_unique<OnDeviceOfQt>();
+}
+
+std::unique_ptr<Way> on_own_device() {
+    return std::make_unique<OnOwnDevice>();
+}
 
 std::unique_ptr<Way> into_own_image() {
     return std::make_unique<IntoOwnImage>();
