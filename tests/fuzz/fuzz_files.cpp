@@ -9,7 +9,6 @@
 #include "seeds.hpp"
 
 #include <tools/io/input_error.hpp>
-#include <tools/io/layout.hpp>
 #include <tools/io/number_table.hpp>
 #include <tools/io/outline.hpp>
 #include <tools/io/scene.hpp>

@@ -90,10 +90,11 @@ void run_standard_table(const std::string& filter, const Settings& settings,
 void run_gpu_table(const std::string& filter, const Settings& settings,
                    const std::optional<std::string>& json);
 
-inline constexpr std::size_t techniques_measured = 4;
+inline constexpr std::array techniques_measured{Technique::raster, Technique::compute,
+                                                Technique::cpu, Technique::automatic};
 
 /// The time for a frame's queries by technique, in milliseconds; empty if unavailable.
-using TechniqueTimes = std::array<std::optional<double>, techniques_measured>;
+using TechniqueTimes = std::array<std::optional<double>, techniques_measured.size()>;
 
 /// The cost of the proximity queries of a scene: the penetration of every near pair in both
 /// directions, with all records, as one batch per frame. Includes shape deformation, poses and the
@@ -116,7 +117,6 @@ public:
     /// Measures a scene in its current state.
     [[nodiscard]] QueryTimes measure_still(const simulation::Scene& scene);
 
-    [[nodiscard]] static const std::array<Technique, techniques_measured>& techniques();
     /// Empty if there is no device.
     [[nodiscard]] std::string device_name() const;
 

@@ -315,23 +315,17 @@ std::string cell(const GpuTime& time) {
            (time.device ? three_digits(*time.device) : "-");
 }
 
-void write_table(std::ostream& stream, std::span<const GpuRow> rows, bool of_pairs) {
-    const auto of_kind = [of_pairs](const GpuRow& row) { return row.has_pairs == of_pairs; };
-    const auto first = std::find_if(rows.begin(), rows.end(), of_kind);
-    if (first == rows.end()) {
-        return;
-    }
+/// Writes rows of one kind.
+void write_table(std::ostream& stream, std::span<const GpuRow> rows) {
+    const bool of_pairs = rows.front().has_pairs;
     stream << (of_pairs ? "\n| row | ordered pairs | points" : "\n| row | cells");
     std::string rule = of_pairs ? "\n|---|---|---|" : "\n|---|---|";
-    for (const GpuTime& time : first->times) {
+    for (const GpuTime& time : rows.front().times) {
         stream << " | " << time.way;
         rule += "---|";
     }
     stream << " |" << rule << '\n';
     for (const GpuRow& row : rows) {
-        if (!of_kind(row)) {
-            continue;
-        }
         // Of a row that was answered in no way nothing was counted.
         stream << "| " << row.name << " | " << (row.size > 0 ? std::to_string(row.size) : "-");
         if (of_pairs) {
@@ -344,42 +338,25 @@ void write_table(std::ostream& stream, std::span<const GpuRow> rows, bool of_pai
     }
 }
 
-bool is_measured(std::span<const GpuRow> rows, bool of_pairs, std::size_t way) {
-    return std::any_of(rows.begin(), rows.end(), [&](const GpuRow& row) {
-        return row.has_pairs == of_pairs && row.times[way].frames > 0;
-    });
-}
-
-/// The first row from which on a way takes less time than `cpu` in each; null if it does in none.
-const GpuRow* crossover(std::span<const GpuRow> rows, bool of_pairs, std::size_t way) {
-    const GpuRow* from = nullptr;
-    for (const GpuRow& row : rows) {
-        if (row.has_pairs != of_pairs || row.times[way].frames == 0) {
-            continue;
-        }
-        const bool is_faster = row.times[way].frame < row.times.front().frame;
-        from = is_faster ? (from != nullptr ? from : &row) : nullptr;
-    }
-    return from;
-}
-
-void write_crossovers(std::ostream& stream, std::span<const GpuRow> rows, bool of_pairs) {
-    const auto first = std::find_if(rows.begin(), rows.end(), [of_pairs](const GpuRow& row) {
-        return row.has_pairs == of_pairs;
-    });
-    if (first == rows.end()) {
-        return;
-    }
+/// Writes the first row from which on each way takes less time than `cpu`.
+void write_crossovers(std::ostream& stream, std::span<const GpuRow> rows) {
     stream << '\n';
-    for (std::size_t way = 1; way < first->times.size(); ++way) {
-        if (!is_measured(rows, of_pairs, way)) {
-            continue;
+    for (std::size_t way = 1; way < rows.front().times.size(); ++way) {
+        bool is_measured = false;
+        const GpuRow* from = nullptr;
+        for (const GpuRow& row : rows) {
+            if (row.times[way].frames > 0) {
+                is_measured = true;
+                const bool is_faster = row.times[way].frame < row.times.front().frame;
+                from = is_faster ? (from != nullptr ? from : &row) : nullptr;
+            }
         }
-        const GpuRow* const from = crossover(rows, of_pairs, way);
-        stream << "* " << first->times[way].way << ": "
-               << (from != nullptr ? "faster than cpu from " + from->name + " on"
-                                   : "not faster than cpu in the largest row measured")
-               << '\n';
+        if (is_measured) {
+            stream << "* " << rows.front().times[way].way << ": "
+                   << (from != nullptr ? "faster than cpu from " + from->name + " on"
+                                       : "not faster than cpu in the largest row measured")
+                   << '\n';
+        }
     }
 }
 
@@ -425,9 +402,14 @@ void write_gpu_tables(std::ostream& stream, std::span<const GpuRow> rows,
            << "Fields: values at the cells around a coast line of 8,000 vertices, read back; "
               "`resident`: in an image on the device. `-`: left out, since a smaller row took more "
               "than two seconds.\n";
-    for (const bool of_pairs : {true, false}) {
-        write_table(stream, rows, of_pairs);
-        write_crossovers(stream, rows, of_pairs);
+    // Rows of pairs come before those of fields.
+    const auto fields = static_cast<std::size_t>(
+        std::count_if(rows.begin(), rows.end(), [](const GpuRow& row) { return row.has_pairs; }));
+    for (const std::span<const GpuRow> of_kind : {rows.first(fields), rows.subspan(fields)}) {
+        if (!of_kind.empty()) {
+            write_table(stream, of_kind);
+            write_crossovers(stream, of_kind);
+        }
     }
     write_refusals(stream, rows);
 }

@@ -80,14 +80,8 @@ private:
 
 }  // namespace
 
-const std::array<Technique, techniques_measured>& QueryStopwatch::techniques() {
-    static constexpr std::array<Technique, techniques_measured> all{
-        Technique::raster, Technique::compute, Technique::cpu, Technique::automatic};
-    return all;
-}
-
 QueryStopwatch::QueryStopwatch(const Settings& settings) {
-    for (const Technique technique : techniques()) {
+    for (const Technique technique : techniques_measured) {
         AskedTechniques asked;
         asked.add(technique);
         try {
@@ -111,9 +105,9 @@ std::vector<QueryTimes> QueryStopwatch::measure_run(simulation::Scene scene,
                             Technique::cpu);
     std::vector<std::unique_ptr<Watch>> watches;  // by tolerance, then by technique
     for (const double tolerance : tolerances) {
-        for (std::size_t i = 0; i < techniques_measured; ++i) {
-            watches.push_back(
-                std::make_unique<Watch>(contexts_[i], world.scene(), tolerance, techniques()[i]));
+        for (std::size_t i = 0; i < techniques_measured.size(); ++i) {
+            watches.push_back(std::make_unique<Watch>(contexts_[i], world.scene(), tolerance,
+                                                      techniques_measured[i]));
         }
     }
     for (int frame = 1; frame <= frames; ++frame) {
@@ -124,15 +118,15 @@ std::vector<QueryTimes> QueryStopwatch::measure_run(simulation::Scene scene,
     }
     std::vector<QueryTimes> times(tolerances.size());
     for (std::size_t i = 0; i < watches.size(); ++i) {
-        watches[i]->report(times[i / techniques_measured], i % techniques_measured);
+        watches[i]->report(times[i / techniques_measured.size()], i % techniques_measured.size());
     }
     return times;
 }
 
 QueryTimes QueryStopwatch::measure_still(const simulation::Scene& scene) {
     QueryTimes times;
-    for (std::size_t i = 0; i < techniques_measured; ++i) {
-        Watch watch(contexts_[i], scene, scene.tolerance, techniques()[i]);
+    for (std::size_t i = 0; i < techniques_measured.size(); ++i) {
+        Watch watch(contexts_[i], scene, scene.tolerance, techniques_measured[i]);
         watch.ask(6);
         watch.report(times, i);
     }
@@ -289,8 +283,8 @@ void write_times(JsonWriter& json, const QueryTimes& times) {
     json.member("queries", times.queries);
     json.member("points", times.points);
     json.key("ms").begin_object();
-    for (std::size_t i = 0; i < techniques_measured; ++i) {
-        json.member(to_string(QueryStopwatch::techniques()[i]), times.milliseconds[i]);
+    for (std::size_t i = 0; i < techniques_measured.size(); ++i) {
+        json.member(to_string(techniques_measured[i]), times.milliseconds[i]);
     }
     json.end_object();
 }
@@ -332,11 +326,11 @@ void write_json(std::ostream& stream, const Measured& measured,
 }
 
 LineChart chart_of(const std::vector<GrowthPoint>& points, std::string title, std::string x_name) {
-    constexpr std::array<Color, techniques_measured> colors{rgb(0xC2185B), rgb(0x7B3FA0),
-                                                            rgb(0x14467C), rgb(0x5B6675)};
+    constexpr std::array<Color, techniques_measured.size()> colors{rgb(0xC2185B), rgb(0x7B3FA0),
+                                                                   rgb(0x14467C), rgb(0x5B6675)};
     LineChart chart{std::move(title), std::move(x_name), "milliseconds of a frame's queries", {}};
-    for (std::size_t i = 0; i < techniques_measured; ++i) {
-        ChartLine line{to_string(QueryStopwatch::techniques()[i]), colors[i], {}};
+    for (std::size_t i = 0; i < techniques_measured.size(); ++i) {
+        ChartLine line{to_string(techniques_measured[i]), colors[i], {}};
         for (const GrowthPoint& point : points) {
             if (point.times.milliseconds[i]) {
                 line.points.push_back({point.of, *point.times.milliseconds[i]});

@@ -8,7 +8,6 @@
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/input_error.hpp>
-#include <tools/io/layout.hpp>
 #include <tools/io/number_table.hpp>
 #include <tools/io/output_file.hpp>
 #include <tools/io/scene.hpp>

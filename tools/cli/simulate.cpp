@@ -157,10 +157,16 @@ void write_frame(JsonWriter& json, const ClearanceFrame& frame) {
     json.end_object();
 }
 
-benchmark::Spread query_times(const ClearanceReport& report) {
+/// Of a frame's queries, in milliseconds.
+template <class Report>
+benchmark::Spread query_times(const Report& report) {
     std::vector<double> times;
-    for (const ClearanceFrame& frame : report.frames) {
-        times.push_back(frame.milliseconds);
+    for (const auto& frame : report.frames) {
+        if constexpr (requires { frame.queries; }) {
+            times.push_back(frame.queries.milliseconds);
+        } else {
+            times.push_back(frame.milliseconds);
+        }
     }
     return benchmark::spread_of(std::move(times));
 }
@@ -224,15 +230,6 @@ double worst_penetration(const SimulationReport& report) {
         worst = std::max(worst, frame.worst_penetration);
     }
     return worst;
-}
-
-benchmark::Spread query_times(const SimulationReport& report) {
-    std::vector<double> times;
-    times.reserve(report.frames.size());
-    for (const simulation::FrameReport& frame : report.frames) {
-        times.push_back(frame.queries.milliseconds);
-    }
-    return benchmark::spread_of(std::move(times));
 }
 
 void write_energies(JsonWriter& json, const simulation::Energies& energies) {

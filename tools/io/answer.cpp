@@ -1,6 +1,7 @@
 #include <tools/io/answer.hpp>
 #include <tools/io/world_report.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -297,6 +298,18 @@ std::string point_text(Vector2 point) {
     return text;
 }
 
+/// Calls `write` for the first few of many, and says how many more there are.
+template <class Value, class Write>
+void write_first(std::ostream& stream, const std::vector<Value>& all, Write write) {
+    constexpr std::size_t max_shown = 8;
+    for (const Value& value : std::span(all).first(std::min(all.size(), max_shown))) {
+        write(value);
+    }
+    if (all.size() > max_shown) {
+        write_item(stream, "", "and " + std::to_string(all.size() - max_shown) + " more");
+    }
+}
+
 std::string feature_text(Feature feature) {
     return (feature.kind == Feature::Kind::edge ? "edge " : "vertex ") +
            std::to_string(feature.index);
@@ -340,37 +353,26 @@ void write_result(std::ostream& stream, const DistanceFieldResult& result) {
                    "error bound " + short_number(result.gradient_error_bound) +
                        (format.empty() ? "" : ", blended in " + format));
     }
-    constexpr std::size_t max_shown = 8;
-    for (std::size_t index = 0; index < result.points.size() && index < max_shown; ++index) {
-        const FieldPoint& point = result.points[index];
+    write_first(stream, result.points, [&stream](const FieldPoint& point) {
         write_item(stream, "at " + point_text(point.position),
                    short_number(point.distance) + " within " + short_number(point.error_bound) +
                        ", inside " + short_number(point.inside) + ", gradient " +
                        point_text(point.gradient) + ", " + feature_text(point.feature) +
                        (point.unique ? "" : ", one of several"));
-    }
-    if (result.points.size() > max_shown) {
-        write_item(stream, "", "and " + std::to_string(result.points.size() - max_shown) + " more");
-    }
+    });
 }
 
 void write_result(std::ostream& stream, const ContactResult& result) {
     write_item(stream, "count",
                std::to_string(result.count) + " contact points in " +
                    std::to_string(result.manifold.size()) + " stretches");
-    constexpr std::size_t max_shown = 8;
-    for (std::size_t index = 0; index < result.manifold.size() && index < max_shown; ++index) {
-        const ContactCluster& cluster = result.manifold[index];
+    write_first(stream, result.manifold, [&stream](const ContactCluster& cluster) {
         write_item(stream, "",
                    point_text(cluster.first) + " to " + point_text(cluster.last) + ", normal " +
                        point_text(cluster.normal) +
                        (cluster.extreme.inside ? ", depth " : ", distance ") +
                        short_number(cluster.extreme.distance));
-    }
-    if (result.manifold.size() > max_shown) {
-        write_item(stream, "",
-                   "and " + std::to_string(result.manifold.size() - max_shown) + " more");
-    }
+    });
 }
 
 void write_pair(std::ostream& stream, Vector2 on_a, Vector2 on_b, Feature feature_a,
@@ -462,18 +464,12 @@ void write_result(std::ostream& stream, const ContainmentResult& result) {
 
 void write_regions(std::ostream& stream, const ResultSummary& summary) {
     write_item(stream, "regions", std::to_string(summary.regions.size()));
-    constexpr std::size_t max_shown = 8;
-    for (std::size_t index = 0; index < summary.regions.size() && index < max_shown; ++index) {
-        const Region& region = summary.regions[index];
+    write_first(stream, summary.regions, [&stream](const Region& region) {
         write_item(stream, "",
                    point_text(region.min) + " to " + point_text(region.max) + ", " +
                        std::to_string(region.width) + " x " + std::to_string(region.height) +
                        " cells");
-    }
-    if (summary.regions.size() > max_shown) {
-        write_item(stream, "",
-                   "and " + std::to_string(summary.regions.size() - max_shown) + " more");
-    }
+    });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <tools/peers/problem.hpp>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "dxf_text.hpp"
 
 #include <gtest/gtest.h>
-#include <tools/io/arc_chain.hpp>
 #include <tools/io/dxf.hpp>
 #include <tools/io/outline.hpp>
 
