@@ -1,6 +1,6 @@
 #include "live_contacts.hpp"
 
-#include "resources.hpp"
+#include "value_of.hpp"
 
 namespace nearfield::examples {
 namespace {

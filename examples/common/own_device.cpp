@@ -1,20 +1,14 @@
 #include "own_device.hpp"
 
-#include "resources.hpp"
+#include "value_of.hpp"
 
 #include <nearfield/requirements.hpp>
 
 namespace nearfield::examples {
 
 std::vector<std::string> surface_extensions() {
-    std::uint32_t count = 0;
-    require(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr),
-            "vkEnumerateInstanceExtensionProperties");
-    std::vector<VkExtensionProperties> all(count);
-    require(vkEnumerateInstanceExtensionProperties(nullptr, &count, all.data()),
-            "vkEnumerateInstanceExtensionProperties");
     std::vector<std::string> names;
-    for (const VkExtensionProperties& extension : all) {
+    for (const vk::ExtensionProperties& extension : vk::enumerateInstanceExtensionProperties()) {
         const std::string name = extension.extensionName;
         if (name.starts_with("VK_KHR_") && name.ends_with("_surface")) {
             names.push_back(name);
@@ -23,55 +17,38 @@ std::vector<std::string> surface_extensions() {
     return names;
 }
 
-OwnInstance::OwnInstance(const std::vector<std::string>& extensions) {
+vk::UniqueInstance make_instance(const std::vector<std::string>& extensions) {
     std::vector<const char*> names;
     names.reserve(extensions.size());
     for (const std::string& extension : extensions) {
         names.push_back(extension.c_str());
     }
-    VkApplicationInfo application{};
-    application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
-    application.pApplicationName = "nearfield example";
-    application.apiVersion = VK_API_VERSION_1_1;
-    VkInstanceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
-    info.pApplicationInfo = &application;
-    info.enabledExtensionCount = static_cast<std::uint32_t>(names.size());
-    info.ppEnabledExtensionNames = names.data();
-    require(vkCreateInstance(&info, nullptr, &instance_), "vkCreateInstance");
+    const auto application = vk::ApplicationInfo()
+                                 .setPApplicationName("nearfield example")
+                                 .setApiVersion(VK_API_VERSION_1_1);
+    return vk::createInstanceUnique(vk::InstanceCreateInfo()
+                                        .setPApplicationInfo(&application)
+                                        .setPEnabledExtensionNames(names));
 }
 
-OwnDevice::OwnDevice(VkInstance instance, const CanPresent& can_present) {
+OwnDevice::OwnDevice(vk::Instance instance, const CanPresent& can_present) {
     choose(instance, can_present);
     const float priority = 1.0F;
-    VkDeviceQueueCreateInfo queue{};
-    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueFamilyIndex = queue_family_;
-    queue.queueCount = 1;
-    queue.pQueuePriorities = &priority;
+    const auto queue =
+        vk::DeviceQueueCreateInfo().setQueueFamilyIndex(queue_family_).setQueuePriorities(priority);
     const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-    VkDeviceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = 1;
-    info.ppEnabledExtensionNames = &swapchain;
-    require(vkCreateDevice(physical_device_, &info, nullptr, &device_), "vkCreateDevice");
-    vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    device_ = physical_device_.createDeviceUnique(
+        vk::DeviceCreateInfo().setQueueCreateInfos(queue).setPEnabledExtensionNames(swapchain));
+    queue_ = device_->getQueue(queue_family_, 0);
 }
 
 // Selects the first family that nearfield can use and that can present.
-void OwnDevice::choose(VkInstance instance, const CanPresent& can_present) {
-    std::uint32_t count = 0;
-    require(vkEnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");
-    std::vector<VkPhysicalDevice> devices(count);
-    require(vkEnumeratePhysicalDevices(instance, &count, devices.data()),
-            "vkEnumeratePhysicalDevices");
+void OwnDevice::choose(vk::Instance instance, const CanPresent& can_present) {
+    const std::vector<vk::PhysicalDevice> devices = instance.enumeratePhysicalDevices();
     std::string reasons;
-    for (VkPhysicalDevice device : devices) {
-        std::uint32_t family_count = 0;
-        vkGetPhysicalDeviceQueueFamilyProperties(device, &family_count, nullptr);
-        for (std::uint32_t family = 0; family < family_count; ++family) {
+    for (const vk::PhysicalDevice device : devices) {
+        const auto families = static_cast<std::uint32_t>(device.getQueueFamilyProperties().size());
+        for (std::uint32_t family = 0; family < families; ++family) {
             PhysicalDevice asked;
             asked.instance = instance;
             asked.physical_device = device;
@@ -90,13 +67,13 @@ void OwnDevice::choose(VkInstance instance, const CanPresent& can_present) {
             }
         }
     }
-    throw std::runtime_error("none of " + std::to_string(count) +
+    throw std::runtime_error("none of " + std::to_string(devices.size()) +
                              " Vulkan devices has a queue family that will do and that presents to "
                              "this window" +
                              reasons);
 }
 
-HostDevice host_device(VkInstance instance, const OwnDevice& device) {
+HostDevice host_device(vk::Instance instance, const OwnDevice& device) {
     HostDevice host;
     host.instance = instance;
     host.physical_device = device.physical_device();

@@ -58,12 +58,12 @@ private:
 
 class OnOwnDevice : public Way {
 public:
-    OnOwnDevice() : own_instance_(surface_extensions()) {
-        instance_.setVkInstance(own_instance_.get());
+    OnOwnDevice() : own_instance_(make_instance(surface_extensions())) {
+        instance_.setVkInstance(*own_instance_);
         create(instance_);
         view_.setVulkanInstance(&instance_);
         view_.create();
-        device_.emplace(own_instance_.get(), [this](VkPhysicalDevice device, std::uint32_t family) {
+        device_.emplace(*own_instance_, [this](vk::PhysicalDevice device, std::uint32_t family) {
             return instance_.supportsPresent(device, family, &view_);
         });
         view_.setGraphicsDevice(
@@ -76,25 +76,24 @@ public:
 
 private:
     // Destruction order: the window, the device, Qt's wrapper of the instance, the instance.
-    OwnInstance own_instance_;
+    vk::UniqueInstance own_instance_;
     QVulkanInstance instance_;
     std::optional<OwnDevice> device_;
     QQuickView view_;
 };
 
-constexpr VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
-constexpr VkImageLayout layout_after =
-    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;  // the layout in which
-                                               // Qt leaves it
+constexpr vk::Format format = vk::Format::eR8G8B8A8Unorm;
+/// In which Qt leaves it.
+constexpr vk::ImageLayout layout_after = vk::ImageLayout::eColorAttachmentOptimal;
 
 class IntoOwnImage : public Way {
 public:
     IntoOwnImage()
-        : own_instance_(surface_extensions()),
-          device_(own_instance_.get(), [](VkPhysicalDevice, std::uint32_t) { return true; }),
+        : own_instance_(make_instance(surface_extensions())),
+          device_(*own_instance_, [](vk::PhysicalDevice, std::uint32_t) { return true; }),
           control_(std::make_unique<QQuickRenderControl>()),
           view_(std::make_unique<QQuickView>(QUrl(), control_.get())) {
-        instance_.setVkInstance(own_instance_.get());
+        instance_.setVkInstance(*own_instance_);
         create(instance_);
         view_->setVulkanInstance(&instance_);
         view_->setGraphicsDevice(QQuickGraphicsDevice::fromDeviceObjects(
@@ -103,7 +102,7 @@ public:
     QQuickView& view() override { return *view_; }
 
     QImage render() override {
-        if (image_.image.get() == VK_NULL_HANDLE) {
+        if (!image_.image) {
             start();
         }
         QCoreApplication::processEvents();
@@ -113,13 +112,13 @@ public:
         control_->render();
         control_->endFrame();  // waits until the image is complete
         const std::vector<std::uint8_t> pixels =
-            read_back(device_, image_.image.get(), layout_after, extent());
+            read_back(device_, *image_.image, layout_after, extent());
         return QImage(pixels.data(), view_->width(), view_->height(), QImage::Format_RGBA8888)
             .copy();
     }
 
 private:
-    [[nodiscard]] VkExtent2D extent() const {
+    [[nodiscard]] vk::Extent2D extent() const {
         return {static_cast<std::uint32_t>(view_->width()),
                 static_cast<std::uint32_t>(view_->height())};
     }
@@ -128,17 +127,19 @@ private:
         if (!control_->initialize()) {
             throw std::runtime_error("Qt Quick cannot render with our device");
         }
-        image_ = DeviceImage(device_.physical_device(), device_.device(), format, extent(),
-                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                             VK_IMAGE_ASPECT_COLOR_BIT);
-        view_->setRenderTarget(QQuickRenderTarget::fromVulkanImage(
-            image_.image.get(), VK_IMAGE_LAYOUT_UNDEFINED, format, view_->size()));
+        image_ =
+            DeviceImage(device_.physical_device(), device_.device(), format, extent(),
+                        vk::ImageUsageFlagBits::eColorAttachment |
+                            vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferSrc,
+                        vk::ImageAspectFlagBits::eColor);
+        view_->setRenderTarget(
+            QQuickRenderTarget::fromVulkanImage(*image_.image, VK_IMAGE_LAYOUT_UNDEFINED,
+                                                static_cast<VkFormat>(format), view_->size()));
     }
 
     // Destruction runs from the bottom: the window, the image, the device, Qt's wrapper, the
     // instance.
-    OwnInstance own_instance_;
+    vk::UniqueInstance own_instance_;
     QVulkanInstance instance_;
     OwnDevice device_;
     DeviceImage image_;

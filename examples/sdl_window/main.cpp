@@ -22,7 +22,7 @@ struct Options {
 };
 
 View view_of(const Window& window) {
-    const VkExtent2D extent = window.extent();
+    const vk::Extent2D extent = window.extent();
     return {static_cast<double>(extent.width), static_cast<double>(extent.height)};
 }
 
@@ -84,12 +84,12 @@ bool handle_events(const Window& window, Scene& scene) {
 void run(const Options& options) {
     Scene scene;
     const Window window("nearfield in a window", 640, 480);
-    const OwnInstance instance(window.extensions());
-    const Surface surface(window, instance.get());
-    const OwnDevice device(instance.get(), [&](VkPhysicalDevice physical, std::uint32_t family) {
-        return surface.can_present(physical, family);
+    const vk::UniqueInstance instance = make_instance(window.extensions());
+    const vk::UniqueSurfaceKHR surface = make_surface(window, *instance);
+    const OwnDevice device(*instance, [&](vk::PhysicalDevice physical, std::uint32_t family) {
+        return physical.getSurfaceSupportKHR(family, *surface) == VK_TRUE;
     });
-    Renderer renderer(device, instance.get(), surface.get(), window.extent(), scene);
+    Renderer renderer(device, *instance, *surface, window.extent(), scene);
 
     for (int frame = 0; options.frames == 0 || frame < options.frames;) {
         if (options.frames != 0) {
@@ -98,7 +98,7 @@ void run(const Options& options) {
         if (!handle_events(window, scene)) {
             return;
         }
-        const VkExtent2D extent = window.extent();
+        const vk::Extent2D extent = window.extent();
         if (extent.width == 0 || extent.height == 0) {
             SDL_WaitEvent(nullptr);  // nothing to draw to while minimised
             continue;

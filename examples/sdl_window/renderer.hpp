@@ -16,8 +16,8 @@ class Renderer {
 public:
     static constexpr std::uint32_t frames_in_flight = 3;
 
-    Renderer(const OwnDevice& device, VkInstance instance, VkSurfaceKHR surface, VkExtent2D extent,
-             const Scene& scene);
+    Renderer(const OwnDevice& device, vk::Instance instance, vk::SurfaceKHR surface,
+             vk::Extent2D extent, const Scene& scene);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -25,24 +25,24 @@ public:
     /// Draws a frame and shows it. `window_extent` is the current window size, not zero. If a file
     /// is given, a picture (PNG) is written to it. Returns false if the frame was skipped because
     /// the window changed in the meantime.
-    bool draw(const Scene& scene, VkExtent2D window_extent, const std::string& screenshot = {});
+    bool draw(const Scene& scene, vk::Extent2D window_extent, const std::string& screenshot = {});
 
 private:
     struct Frame {
-        VkCommandBuffer commands = VK_NULL_HANDLE;
-        Semaphore available;  ///< the image to draw to
-        Fence done;
+        vk::UniqueCommandBuffer commands;
+        vk::UniqueSemaphore available;  ///< the image to draw to
+        vk::UniqueFence done;
     };
 
     void record(const Frame& frame, std::uint32_t slot, std::uint32_t image, const Scene& scene);
     void submit(const Frame& frame, std::uint32_t image);
-    void resize(VkExtent2D extent);
+    void resize(vk::Extent2D extent);
 
     const OwnDevice& device_;
     Screen screen_;
     Painter painter_;
     LiveContacts contacts_;
-    CommandPool pool_;
+    vk::UniqueCommandPool pool_;
     std::array<Frame, frames_in_flight> frames_;
     std::uint64_t frame_ = 0;
 };

@@ -7,155 +7,113 @@
 namespace nearfield::examples {
 namespace {
 
-RenderPass make_render_pass(VkDevice device) {
-    VkAttachmentDescription color{};
-    color.format = Screen::format;
-    color.samples = VK_SAMPLE_COUNT_1_BIT;
-    color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-    color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    color.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    color.finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
-    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    VkSubpassDescription subpass{};
-    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-    subpass.colorAttachmentCount = 1;
-    subpass.pColorAttachments = &reference;
+vk::UniqueRenderPass make_render_pass(vk::Device device) {
+    const auto color = vk::AttachmentDescription()
+                           .setFormat(Screen::format)
+                           .setLoadOp(vk::AttachmentLoadOp::eClear)
+                           .setStoreOp(vk::AttachmentStoreOp::eStore)
+                           .setStencilLoadOp(vk::AttachmentLoadOp::eDontCare)
+                           .setStencilStoreOp(vk::AttachmentStoreOp::eDontCare)
+                           .setFinalLayout(vk::ImageLayout::ePresentSrcKHR);
+    const vk::AttachmentReference reference(0, vk::ImageLayout::eColorAttachmentOptimal);
+    const auto subpass = vk::SubpassDescription().setColorAttachments(reference);
     // The layout transition waits for the stage in which the submission waits for the image.
-    VkSubpassDependency available{};
-    available.srcSubpass = VK_SUBPASS_EXTERNAL;
-    available.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    available.dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    available.dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
-    VkRenderPassCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
-    info.attachmentCount = 1;
-    info.pAttachments = &color;
-    info.subpassCount = 1;
-    info.pSubpasses = &subpass;
-    info.dependencyCount = 1;
-    info.pDependencies = &available;
-    return create<RenderPass>(device, vkCreateRenderPass, info, "vkCreateRenderPass");
+    const auto available = vk::SubpassDependency()
+                               .setSrcSubpass(VK_SUBPASS_EXTERNAL)
+                               .setSrcStageMask(vk::PipelineStageFlagBits::eColorAttachmentOutput)
+                               .setDstStageMask(vk::PipelineStageFlagBits::eColorAttachmentOutput)
+                               .setDstAccessMask(vk::AccessFlagBits::eColorAttachmentWrite);
+    return device.createRenderPassUnique(
+        vk::RenderPassCreateInfo().setAttachments(color).setSubpasses(subpass).setDependencies(
+            available));
 }
 
-Swapchain make_swapchain(const OwnDevice& device, VkSurfaceKHR surface, VkExtent2D& extent,
-                         VkSwapchainKHR old) {
-    VkSurfaceCapabilitiesKHR can{};
-    require(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical_device(), surface, &can),
-            "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+vk::UniqueSwapchainKHR make_swapchain(const OwnDevice& device, vk::SurfaceKHR surface,
+                                      vk::Extent2D& extent, vk::SwapchainKHR old) {
+    const vk::SurfaceCapabilitiesKHR can =
+        device.physical_device().getSurfaceCapabilitiesKHR(surface);
     extent.width = std::clamp(extent.width, can.minImageExtent.width, can.maxImageExtent.width);
     extent.height = std::clamp(extent.height, can.minImageExtent.height, can.maxImageExtent.height);
-    VkSwapchainCreateInfoKHR info{};
-    info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
-    info.surface = surface;
-    info.minImageCount = std::max(can.minImageCount, 3U);
-    if (can.maxImageCount != 0) {
-        info.minImageCount = std::min(info.minImageCount, can.maxImageCount);
-    }
-    info.imageFormat = Screen::format;
-    info.imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
-    info.imageExtent = extent;
-    info.imageArrayLayers = 1;
-    info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    info.preTransform = can.currentTransform;
-    info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
-    info.clipped = VK_TRUE;
-    info.oldSwapchain = old;
-    return create<Swapchain>(device.device(), vkCreateSwapchainKHR, info, "vkCreateSwapchainKHR");
+    const std::uint32_t images = std::max(can.minImageCount, 3U);
+    return device.device().createSwapchainKHRUnique(
+        vk::SwapchainCreateInfoKHR()
+            .setSurface(surface)
+            .setMinImageCount(can.maxImageCount != 0 ? std::min(images, can.maxImageCount) : images)
+            .setImageFormat(Screen::format)
+            .setImageColorSpace(vk::ColorSpaceKHR::eSrgbNonlinear)
+            .setImageExtent(extent)
+            .setImageArrayLayers(1)
+            .setImageUsage(vk::ImageUsageFlagBits::eColorAttachment |
+                           vk::ImageUsageFlagBits::eTransferSrc)
+            .setPreTransform(can.currentTransform)
+            .setCompositeAlpha(vk::CompositeAlphaFlagBitsKHR::eOpaque)
+            .setPresentMode(vk::PresentModeKHR::eFifo)
+            .setClipped(VK_TRUE)
+            .setOldSwapchain(old));
 }
 
-Framebuffer make_framebuffer(VkDevice device, VkRenderPass render_pass, VkImageView view,
-                             VkExtent2D extent) {
-    VkFramebufferCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-    info.renderPass = render_pass;
-    info.attachmentCount = 1;
-    info.pAttachments = &view;
-    info.width = extent.width;
-    info.height = extent.height;
-    info.layers = 1;
-    return create<Framebuffer>(device, vkCreateFramebuffer, info, "vkCreateFramebuffer");
-}
-
-/// Returns whether the swapchain fits its window; throws on other errors.
-bool fits(VkResult result, const char* call) {
-    if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+/// Returns whether the swapchain fits its window; throws on other errors. Without a pointer, calls
+/// would throw where it does not.
+bool fits(vk::Result result, const char* call) {
+    if (result == vk::Result::eErrorOutOfDateKHR) {
         return false;
     }
-    if (result != VK_SUBOPTIMAL_KHR) {
-        require(result, call);
+    if (result != vk::Result::eSuboptimalKHR) {
+        vk::resultCheck(result, call);
     }
     return true;
 }
 
 }  // namespace
 
-Semaphore make_semaphore(VkDevice device) {
-    VkSemaphoreCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-    return create<Semaphore>(device, vkCreateSemaphore, info, "vkCreateSemaphore");
-}
-
-Screen::Screen(const OwnDevice& device, VkSurfaceKHR surface, VkExtent2D extent)
+Screen::Screen(const OwnDevice& device, vk::SurfaceKHR surface, vk::Extent2D extent)
     : device_(device), surface_(surface), render_pass_(make_render_pass(device.device())) {
     make_anew(extent);
 }
 
-void Screen::make_anew(VkExtent2D extent) {
+void Screen::make_anew(vk::Extent2D extent) {
     extent_ = extent;
-    swapchain_ = make_swapchain(device_, surface_, extent_, swapchain_.get());
-    const VkDevice device = device_.device();
-    std::uint32_t count = 0;
-    require(vkGetSwapchainImagesKHR(device, swapchain_.get(), &count, nullptr),
-            "vkGetSwapchainImagesKHR");
-    images_.resize(count);
-    require(vkGetSwapchainImagesKHR(device, swapchain_.get(), &count, images_.data()),
-            "vkGetSwapchainImagesKHR");
+    swapchain_ = make_swapchain(device_, surface_, extent_, *swapchain_);
+    const vk::Device device = device_.device();
+    images_ = device.getSwapchainImagesKHR(*swapchain_);
     framebuffers_.clear();
     views_.clear();
     drawn_.clear();
-    for (VkImage image : images_) {
-        views_.push_back(make_view(device, image, format, VK_IMAGE_ASPECT_COLOR_BIT));
-        framebuffers_.push_back(
-            make_framebuffer(device, render_pass_.get(), views_.back().get(), extent_));
-        drawn_.push_back(make_semaphore(device));
+    for (const vk::Image image : images_) {
+        views_.push_back(make_view(device, image, format, vk::ImageAspectFlagBits::eColor));
+        framebuffers_.push_back(device.createFramebufferUnique(vk::FramebufferCreateInfo()
+                                                                   .setRenderPass(*render_pass_)
+                                                                   .setAttachments(*views_.back())
+                                                                   .setWidth(extent_.width)
+                                                                   .setHeight(extent_.height)
+                                                                   .setLayers(1)));
+        drawn_.push_back(device.createSemaphoreUnique({}));
     }
 }
 
-std::optional<std::uint32_t> Screen::acquire(VkSemaphore available) {
+std::optional<std::uint32_t> Screen::acquire(vk::Semaphore available) {
     std::uint32_t index = 0;
-    const VkResult result = vkAcquireNextImageKHR(device_.device(), swapchain_.get(), UINT64_MAX,
-                                                  available, VK_NULL_HANDLE, &index);
+    const vk::Result result =
+        device_.device().acquireNextImageKHR(*swapchain_, UINT64_MAX, available, {}, &index);
     return fits(result, "vkAcquireNextImageKHR") ? std::optional(index) : std::nullopt;
 }
 
-void Screen::begin(VkCommandBuffer commands, std::uint32_t image,
-                   const VkClearColorValue& clear) const {
-    VkClearValue value{};
-    value.color = clear;
-    VkRenderPassBeginInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-    info.renderPass = render_pass_.get();
-    info.framebuffer = framebuffers_[image].get();
-    info.renderArea.extent = extent_;
-    info.clearValueCount = 1;
-    info.pClearValues = &value;
-    vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
+void Screen::begin(vk::CommandBuffer commands, std::uint32_t image,
+                   const vk::ClearValue& clear) const {
+    commands.beginRenderPass(vk::RenderPassBeginInfo()
+                                 .setRenderPass(*render_pass_)
+                                 .setFramebuffer(*framebuffers_[image])
+                                 .setRenderArea({{0, 0}, extent_})
+                                 .setClearValues(clear),
+                             vk::SubpassContents::eInline);
 }
 
 bool Screen::present(std::uint32_t image) {
-    const VkSemaphore drawn = drawn_[image].get();
-    const VkSwapchainKHR swapchain = swapchain_.get();
-    VkPresentInfoKHR info{};
-    info.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
-    info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &drawn;
-    info.swapchainCount = 1;
-    info.pSwapchains = &swapchain;
-    info.pImageIndices = &image;
-    return fits(vkQueuePresentKHR(device_.queue(), &info), "vkQueuePresentKHR");
+    const auto info = vk::PresentInfoKHR()
+                          .setWaitSemaphores(*drawn_[image])
+                          .setSwapchains(*swapchain_)
+                          .setImageIndices(image);
+    return fits(device_.queue().presentKHR(&info), "vkQueuePresentKHR");
 }
 
 }  // namespace nearfield::examples

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "common/own_device.hpp"
-#include "common/resources.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -12,39 +11,37 @@ namespace nearfield::examples {
 /// A swapchain with the framebuffers of its images, recreated when the window changes its size.
 class Screen {
 public:
-    static constexpr VkFormat format = VK_FORMAT_B8G8R8A8_UNORM;
+    static constexpr vk::Format format = vk::Format::eB8G8R8A8Unorm;
 
-    Screen(const OwnDevice& device, VkSurfaceKHR surface, VkExtent2D extent);
+    Screen(const OwnDevice& device, vk::SurfaceKHR surface, vk::Extent2D extent);
 
-    [[nodiscard]] VkExtent2D extent() const { return extent_; }
-    [[nodiscard]] VkRenderPass render_pass() const { return render_pass_.get(); }
+    [[nodiscard]] vk::Extent2D extent() const { return extent_; }
+    [[nodiscard]] vk::RenderPass render_pass() const { return *render_pass_; }
 
     /// An image to draw to once `available` is signalled; empty if the swapchain does not fit the
     /// window any more.
-    [[nodiscard]] std::optional<std::uint32_t> acquire(VkSemaphore available);
+    [[nodiscard]] std::optional<std::uint32_t> acquire(vk::Semaphore available);
     /// Begins and ends the render pass, which clears the image.
-    void begin(VkCommandBuffer commands, std::uint32_t image, const VkClearColorValue& clear) const;
-    [[nodiscard]] VkImage image(std::uint32_t index) const { return images_[index]; }
+    void begin(vk::CommandBuffer commands, std::uint32_t image, const vk::ClearValue& clear) const;
+    [[nodiscard]] vk::Image image(std::uint32_t index) const { return images_[index]; }
     /// Signalled by the submission that draws the image; present() waits for it.
-    [[nodiscard]] VkSemaphore drawn(std::uint32_t index) const { return drawn_[index].get(); }
+    [[nodiscard]] vk::Semaphore drawn(std::uint32_t index) const { return *drawn_[index]; }
     /// Returns false if the swapchain does not fit the window any more.
     [[nodiscard]] bool present(std::uint32_t image);
 
     /// Recreates the swapchain for the window's new size. The old swapchain must not be in use.
-    void make_anew(VkExtent2D extent);
+    void make_anew(vk::Extent2D extent);
 
 private:
     const OwnDevice& device_;
-    VkSurfaceKHR surface_;
-    VkExtent2D extent_{};
-    RenderPass render_pass_;
-    Swapchain swapchain_;
-    std::vector<VkImage> images_;
-    std::vector<ImageView> views_;
-    std::vector<Framebuffer> framebuffers_;
-    std::vector<Semaphore> drawn_;
+    vk::SurfaceKHR surface_;
+    vk::Extent2D extent_;
+    vk::UniqueRenderPass render_pass_;
+    vk::UniqueSwapchainKHR swapchain_;
+    std::vector<vk::Image> images_;
+    std::vector<vk::UniqueImageView> views_;
+    std::vector<vk::UniqueFramebuffer> framebuffers_;
+    std::vector<vk::UniqueSemaphore> drawn_;
 };
-
-[[nodiscard]] Semaphore make_semaphore(VkDevice device);
 
 }  // namespace nearfield::examples

@@ -1,7 +1,5 @@
 #include "window.hpp"
 
-#include "common/resources.hpp"
-
 #include <SDL_vulkan.h>
 
 namespace nearfield::examples {
@@ -41,24 +39,19 @@ std::vector<std::string> Window::extensions() const {
     return {names.begin(), names.end()};
 }
 
-VkExtent2D Window::extent() const {
+vk::Extent2D Window::extent() const {
     int width = 0;
     int height = 0;
     SDL_Vulkan_GetDrawableSize(window_, &width, &height);
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
-Surface::Surface(const Window& window, VkInstance instance) : instance_(instance) {
-    if (SDL_Vulkan_CreateSurface(window.get(), instance, &surface_) == SDL_FALSE) {
+vk::UniqueSurfaceKHR make_surface(const Window& window, vk::Instance instance) {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    if (SDL_Vulkan_CreateSurface(window.get(), instance, &surface) == SDL_FALSE) {
         fail("SDL_Vulkan_CreateSurface");
     }
-}
-
-bool Surface::can_present(VkPhysicalDevice device, std::uint32_t family) const {
-    VkBool32 can = VK_FALSE;
-    require(vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface_, &can),
-            "vkGetPhysicalDeviceSurfaceSupportKHR");
-    return can == VK_TRUE;
+    return vk::UniqueSurfaceKHR(surface, instance);
 }
 
 }  // namespace nearfield::examples

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <SDL.h>
-#include <vulkan/vulkan.h>
+#include <vulkan/vulkan.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -22,26 +22,13 @@ public:
     /// The instance extensions that a surface of this window needs.
     [[nodiscard]] std::vector<std::string> extensions() const;
     /// In pixels.
-    [[nodiscard]] VkExtent2D extent() const;
+    [[nodiscard]] vk::Extent2D extent() const;
 
 private:
     SDL_Window* window_ = nullptr;
 };
 
 /// The Vulkan surface of a window.
-class Surface {
-public:
-    Surface(const Window& window, VkInstance instance);
-    ~Surface() { vkDestroySurfaceKHR(instance_, surface_, nullptr); }
-    Surface(const Surface&) = delete;
-    Surface& operator=(const Surface&) = delete;
-
-    [[nodiscard]] VkSurfaceKHR get() const { return surface_; }
-    [[nodiscard]] bool can_present(VkPhysicalDevice device, std::uint32_t family) const;
-
-private:
-    VkInstance instance_ = VK_NULL_HANDLE;
-    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
-};
+[[nodiscard]] vk::UniqueSurfaceKHR make_surface(const Window& window, vk::Instance instance);
 
 }  // namespace nearfield::examples

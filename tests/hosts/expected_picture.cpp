@@ -1,6 +1,6 @@
 #include "expected_picture.hpp"
 
-#include "examples/common/resources.hpp"
+#include "examples/common/value_of.hpp"
 
 #include <algorithm>
 #include <cmath>

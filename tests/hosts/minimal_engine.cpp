@@ -7,85 +7,68 @@ namespace {
 
 using namespace examples;
 
-constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_UNORM;
-constexpr VkFormat depth_format = VK_FORMAT_D16_UNORM;
+constexpr auto color_format = vk::Format::eR8G8B8A8Unorm;
+constexpr auto depth_format = vk::Format::eD16Unorm;
 
-constexpr VkPipelineStageFlags attachment_stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                                   VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-                                                   VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-constexpr VkAccessFlags attachment_writes =
-    VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-constexpr VkAccessFlags attachment_reads =
-    VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
+using Access = vk::AccessFlagBits;
+using Layout = vk::ImageLayout;
+using Stage = vk::PipelineStageFlagBits;
 
-VkAttachmentDescription attachment(VkFormat format, VkAttachmentLoadOp load, VkImageLayout from,
-                                   VkImageLayout to) {
-    VkAttachmentDescription attachment{};
-    attachment.format = format;
-    attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-    attachment.loadOp = load;
-    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-    attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    attachment.initialLayout = from;
-    attachment.finalLayout = to;
-    return attachment;
+vk::AttachmentDescription attachment(vk::Format format, vk::AttachmentLoadOp load, Layout from,
+                                     Layout to) {
+    return vk::AttachmentDescription()
+        .setFormat(format)
+        .setLoadOp(load)
+        .setStoreOp(vk::AttachmentStoreOp::eStore)
+        .setStencilLoadOp(vk::AttachmentLoadOp::eDontCare)
+        .setStencilStoreOp(vk::AttachmentStoreOp::eDontCare)
+        .setInitialLayout(from)
+        .setFinalLayout(to);
 }
 
 /// Of the two passes, the first clears the images that the previous frame has copied; the second
 /// continues with their contents and leaves both images ready for copying.
-RenderPass make_pass(VkDevice device, bool is_first) {
-    const VkAttachmentLoadOp load =
-        is_first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-    const VkImageLayout color = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    const VkImageLayout depth = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-    const VkImageLayout copied = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    const VkImageLayout nothing = VK_IMAGE_LAYOUT_UNDEFINED;
+vk::UniqueRenderPass make_pass(vk::Device device, bool is_first) {
+    const auto load = is_first ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad;
+    constexpr Layout color = Layout::eColorAttachmentOptimal;
+    constexpr Layout depth = Layout::eDepthStencilAttachmentOptimal;
+    constexpr Layout copied = Layout::eTransferSrcOptimal;
+    constexpr Layout nothing = Layout::eUndefined;
     const std::array attachments{
         attachment(color_format, load, is_first ? nothing : color, is_first ? color : copied),
         attachment(depth_format, load, is_first ? nothing : depth, is_first ? depth : copied)};
-    const VkAttachmentReference color_reference{0, color};
-    const VkAttachmentReference depth_reference{1, depth};
-    VkSubpassDescription subpass{};
-    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-    subpass.colorAttachmentCount = 1;
-    subpass.pColorAttachments = &color_reference;
-    subpass.pDepthStencilAttachment = &depth_reference;
-    std::array<VkSubpassDependency, 2> dependencies{};
-    dependencies[0].srcSubpass = VK_SUBPASS_EXTERNAL;
-    dependencies[0].srcStageMask = attachment_stages | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    dependencies[0].srcAccessMask = attachment_writes;
-    dependencies[0].dstStageMask = attachment_stages;
-    dependencies[0].dstAccessMask = attachment_writes | attachment_reads;
-    dependencies[1].dstSubpass = VK_SUBPASS_EXTERNAL;
-    dependencies[1].srcStageMask = attachment_stages;
-    dependencies[1].srcAccessMask = attachment_writes;
-    dependencies[1].dstStageMask = attachment_stages | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    dependencies[1].dstAccessMask =
-        attachment_writes | attachment_reads | VK_ACCESS_TRANSFER_READ_BIT;
-    VkRenderPassCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
-    info.attachmentCount = static_cast<std::uint32_t>(attachments.size());
-    info.pAttachments = attachments.data();
-    info.subpassCount = 1;
-    info.pSubpasses = &subpass;
-    info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
-    info.pDependencies = dependencies.data();
-    return create<RenderPass>(device, vkCreateRenderPass, info, "vkCreateRenderPass");
+    const vk::AttachmentReference color_reference(0, color);
+    const vk::AttachmentReference depth_reference(1, depth);
+    const auto subpass = vk::SubpassDescription()
+                             .setColorAttachments(color_reference)
+                             .setPDepthStencilAttachment(&depth_reference);
+    const vk::PipelineStageFlags stages =
+        Stage::eColorAttachmentOutput | Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+    const vk::AccessFlags writes =
+        Access::eColorAttachmentWrite | Access::eDepthStencilAttachmentWrite;
+    const vk::AccessFlags reads =
+        Access::eColorAttachmentRead | Access::eDepthStencilAttachmentRead;
+    const std::array dependencies{
+        vk::SubpassDependency(VK_SUBPASS_EXTERNAL, 0, stages | Stage::eTransfer, stages, writes,
+                              writes | reads),
+        vk::SubpassDependency(0, VK_SUBPASS_EXTERNAL, stages, stages | Stage::eTransfer, writes,
+                              writes | reads | Access::eTransferRead)};
+    return device.createRenderPassUnique(vk::RenderPassCreateInfo()
+                                             .setAttachments(attachments)
+                                             .setSubpasses(subpass)
+                                             .setDependencies(dependencies));
 }
 
-Framebuffer make_framebuffer(VkDevice device, VkRenderPass pass, const DeviceImage& color,
-                             const DeviceImage& depth, VkExtent2D extent) {
-    const std::array views{color.view.get(), depth.view.get()};
-    VkFramebufferCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-    info.renderPass = pass;
-    info.attachmentCount = static_cast<std::uint32_t>(views.size());
-    info.pAttachments = views.data();
-    info.width = extent.width;
-    info.height = extent.height;
-    info.layers = 1;
-    return create<Framebuffer>(device, vkCreateFramebuffer, info, "vkCreateFramebuffer");
+vk::UniqueFramebuffer make_framebuffer(vk::Device device, vk::RenderPass pass,
+                                       const DeviceImage& color, const DeviceImage& depth,
+                                       vk::Extent2D extent) {
+    const std::array views{*color.view, *depth.view};
+    return device.createFramebufferUnique(vk::FramebufferCreateInfo()
+                                              .setRenderPass(pass)
+                                              .setAttachments(views)
+                                              .setWidth(extent.width)
+                                              .setHeight(extent.height)
+                                              .setLayers(1));
 }
 
 /// A triangle at a different position in each frame.
@@ -100,8 +83,8 @@ MinimalEngine::MinimalEngine(const HostDevice& host, VkExtent2D extent)
     : host_(host),
       first_pass_(make_pass(host.device, true)),
       second_pass_(make_pass(host.device, false)),
-      first_painter_(host.physical_device, host.device, first_pass_.get(), frames_in_flight),
-      second_painter_(host.physical_device, host.device, second_pass_.get(), frames_in_flight),
+      first_painter_(host.physical_device, host.device, *first_pass_, frames_in_flight),
+      second_painter_(host.physical_device, host.device, *second_pass_, frames_in_flight),
       frames_(host, frames_in_flight) {
     resize(extent);
 }
@@ -114,21 +97,22 @@ void MinimalEngine::resize(VkExtent2D extent) {
     extent_ = extent;
     const VkPhysicalDevice physical_device = host_.physical_device;
     const VkDevice device = host_.device;
-    framebuffer_ = {};
-    color_ = DeviceImage(physical_device, device, color_format, extent,
-                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                         VK_IMAGE_ASPECT_COLOR_BIT);
-    depth_ =
-        DeviceImage(physical_device, device, depth_format, extent,
-                    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                    VK_IMAGE_ASPECT_DEPTH_BIT);
-    framebuffer_ = make_framebuffer(device, first_pass_.get(), color_, depth_, extent);
+    framebuffer_.reset();
+    color_ =
+        DeviceImage(physical_device, device, color_format, extent,
+                    vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
+                    vk::ImageAspectFlagBits::eColor);
+    depth_ = DeviceImage(
+        physical_device, device, depth_format, extent,
+        vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eTransferSrc,
+        vk::ImageAspectFlagBits::eDepth);
+    framebuffer_ = make_framebuffer(device, *first_pass_, color_, depth_, extent);
     const VkDeviceSize pixels = VkDeviceSize{extent.width} * extent.height;
     for (Slot& slot : slots_) {
         slot.color =
-            HostBuffer(physical_device, device, 4 * pixels, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+            HostBuffer(physical_device, device, 4 * pixels, vk::BufferUsageFlagBits::eTransferDst);
         slot.depth =
-            HostBuffer(physical_device, device, 2 * pixels, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+            HostBuffer(physical_device, device, 2 * pixels, vk::BufferUsageFlagBits::eTransferDst);
     }
 }
 
@@ -138,14 +122,14 @@ void MinimalEngine::draw(std::uint64_t frame, const Guest& guest) {
     first_painter_.upload(slot, triangle(frame, 10.0F, {200, 40, 60, 255}));
     second_painter_.upload(slot, triangle(frame, 40.0F, {60, 200, 40, 255}));
 
-    begin(commands, first_pass_.get());
+    begin(commands, *first_pass_);
     first_painter_.draw(commands, slot, extent_);
     clear_square(commands, slot);
     vkCmdEndRenderPass(commands);
 
     guest(commands);
 
-    begin(commands, second_pass_.get());
+    begin(commands, *second_pass_);
     second_painter_.draw(commands, slot, extent_);
     clear_square(commands, slot + 8);
     vkCmdEndRenderPass(commands);
@@ -172,7 +156,7 @@ void MinimalEngine::begin(VkCommandBuffer commands, VkRenderPass pass) {
     VkRenderPassBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = pass;
-    info.framebuffer = framebuffer_.get();
+    info.framebuffer = *framebuffer_;
     info.renderArea.extent = extent_;
     info.clearValueCount = static_cast<std::uint32_t>(clear.size());
     info.pClearValues = clear.data();
@@ -193,11 +177,11 @@ void MinimalEngine::copy(VkCommandBuffer commands, const Slot& slot) {
     VkBufferImageCopy region{};
     region.imageExtent = {extent_.width, extent_.height, 1};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    vkCmdCopyImageToBuffer(commands, color_.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           slot.color.buffer.get(), 1, &region);
+    vkCmdCopyImageToBuffer(commands, *color_.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           *slot.color.buffer, 1, &region);
     region.imageSubresource.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT;
-    vkCmdCopyImageToBuffer(commands, depth_.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           slot.depth.buffer.get(), 1, &region);
+    vkCmdCopyImageToBuffer(commands, *depth_.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           *slot.depth.buffer, 1, &region);
     VkMemoryBarrier to_host{};
     to_host.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     to_host.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;

@@ -56,13 +56,13 @@ private:
 
     HostDevice host_;
     VkExtent2D extent_{};
-    examples::RenderPass first_pass_;
-    examples::RenderPass second_pass_;
+    vk::UniqueRenderPass first_pass_;
+    vk::UniqueRenderPass second_pass_;
     examples::Painter first_painter_;
     examples::Painter second_painter_;
     examples::DeviceImage color_;
     examples::DeviceImage depth_;
-    examples::Framebuffer framebuffer_;
+    vk::UniqueFramebuffer framebuffer_;
     std::array<Slot, frames_in_flight> slots_;
     std::uint64_t next_frame_ = 0;
     test_support::HostFrames frames_;  // last member: waits for what is in flight before the rest
