@@ -37,9 +37,10 @@ void samples_in(const Vector2& from, const Vector2& to, double spacing, const Re
     if (passes_by(box, from, to)) {
         return;
     }
-    const double pieces = std::ceil(std::hypot(to.x - from.x, to.y - from.y) / spacing);
-    for (double piece = 0.0; piece < pieces; piece += 1.0) {
-        const double t = piece / pieces;
+    const auto pieces =
+        static_cast<std::size_t>(std::ceil(std::hypot(to.x - from.x, to.y - from.y) / spacing));
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        const double t = static_cast<double>(piece) / static_cast<double>(pieces);
         const Vector2 point{std::lerp(from.x, to.x, t), std::lerp(from.y, to.y, t)};
         if (holds(box, point)) {
             points.push_back(point);
@@ -172,10 +173,11 @@ Problem world_problem(std::string name, Task task, tools::Scene scene, tools::Wo
 Problem layout() {
     tools::Scene scene;
     Random random(41);
-    for (int i = 0; i < 48; ++i) {
+    for (std::size_t i = 0; i < 48; ++i) {
         Ring item = benchmark::star(random, 21);  // fixes the evaluation order: before the angle
-        benchmark::add_object(scene, {std::move(item)},
-                              {{2.1 * (i % 8), 2.1 * (i / 8)}, random.between(0.0, whole_turn)});
+        benchmark::add_object(
+            scene, {std::move(item)},
+            {benchmark::in_rows(i, 8, {2.1, 2.1}), random.between(0.0, whole_turn)});
     }
     Ring item = benchmark::star(random, 21);
     tools::WorldRequest request;

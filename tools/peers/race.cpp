@@ -148,10 +148,7 @@ double number_of(const Record& record) {
     }
 }
 
-std::vector<double> numbers_of(const Problem& problem, Context& context) {
-    tools::SceneRunner runner(problem.scene, problem.name, context);
-    runner.run_frame();
-    runner.require_results();
+std::vector<double> numbers_of(const tools::SceneAnswer& answer) {
     std::vector<double> numbers;
     std::visit(
         [&numbers](const auto& found) {
@@ -159,7 +156,7 @@ std::vector<double> numbers_of(const Problem& problem, Context& context) {
                 numbers.push_back(number_of(record));
             }
         },
-        runner.answers().front().world->records);
+        answer.world->records);
     return numbers;
 }
 
@@ -208,14 +205,18 @@ void compare(Peer& peer, const Problem& problem, std::span<const PlacedShape> sh
 /// much as nearfield's answers to inputs that are displaced by its rounding do, and one answer in
 /// ten thousand may be another: in float, rays can pass between two edges at their common vertex.
 void compare_world(const Peer& peer, const Problem& problem, Context& context,
-                   const std::vector<double>& numbers, PeerTimes& times) {
-    std::vector<double> least = numbers_of(problem, context);
+                   const tools::SceneAnswer& result, const std::vector<double>& numbers,
+                   PeerTimes& times) {
+    std::vector<double> least = numbers_of(result);
     std::vector<double> most = least;
     constexpr int directions = 8;
     for (int i = 0; i < directions && peer.rounding() > 0.0; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / directions;
-        const Vector2 by{peer.rounding() * std::cos(angle), peer.rounding() * std::sin(angle)};
-        const std::vector<double> other = numbers_of(displaced(problem, by), context);
+        const Problem other_inputs = displaced(
+            problem, {peer.rounding() * std::cos(angle), peer.rounding() * std::sin(angle)});
+        tools::SceneRunner runner(other_inputs.scene, problem.name, context);
+        runner.run_frame();
+        const std::vector<double> other = numbers_of(runner.answers().front());
         for (std::size_t k = 0; k < other.size(); ++k) {
             least[k] = std::min(least[k], other[k]);
             most[k] = std::max(most[k], other[k]);
@@ -358,7 +359,8 @@ struct Entry {
         PeerTimes times{kept->name(), kept->methods().at(problem.task), {}, {}};
         run_kept();
         if (problem.is_of_world()) {
-            compare_world(*kept, problem, context, kept_answers.front().values, times);
+            compare_world(*kept, problem, context, results.front(), kept_answers.front().values,
+                          times);
             return times;
         }
         run_built();
@@ -403,19 +405,16 @@ ProblemTimes race(const Problem& problem, Context& context) {
     times.name = problem.name;
     times.task = tools::name_of(problem.task);
     times.queries = problem.scene.queries.size();
-    SceneRunner ours(problem.scene, problem.name, context);
     SceneRunner kept(problem.scene, problem.name, context);
-    run_frame(ours, FrameInput::all);
     run_frame(kept, FrameInput::all);
-    const std::vector<tools::SceneAnswer> results = ours.answers();
+    const std::vector<tools::SceneAnswer> results = kept.answers();
     std::optional<KeptPairs> pairs;
     if (KeptPairs::answers(problem.task)) {
         pairs.emplace(problem, context);
         pairs->run_frame();
         pairs->require_same(results);
     }
-    times.technique = ours.technique();
-    // Of a world the index alone is of interest, which is built once.
+    times.technique = kept.technique();
     std::vector<benchmark::Contender> contenders;
     std::vector<benchmark::Spread*> spreads;
     const auto add = [&](benchmark::Spread& spread, std::function<double()> frame) {
@@ -433,10 +432,12 @@ ProblemTimes race(const Problem& problem, Context& context) {
             add(peer.built_ms, [&entry] { return entry->run_built(); });
         }
     }
-    if (problem.is_of_world()) {
+    std::optional<SceneRunner> anew;
+    if (problem.is_of_world()) {  // the index alone is of interest, which is built once
         benchmark::measure(contenders, {.milliseconds = 3000.0, .max_frames = 50});
     } else {
-        add(times.built_ms, [&] { return run_frame(ours, FrameInput::all); });
+        anew.emplace(problem.scene, problem.name, context);
+        add(times.built_ms, [&] { return run_frame(*anew, FrameInput::all); });
         benchmark::measure(contenders, {});
     }
     for (std::size_t i = 0; i < contenders.size(); ++i) {
