@@ -39,33 +39,6 @@ std::string refusal(const Searched& world, PairParts& parts, const PairLimits& l
     return {};
 }
 
-/// Or they would be joined and divided in turns.
-TEST(PairParts, ThatStayOnTheDeviceAreNotJoinedWithoutMemoryForThat) {
-    PairQuestion question = penetrations;
-    question.on_device = true;
-    const Searched world = even_world(1000, 40, question);
-    const PairCounts all = world.counts(0, 1000);
-    const PairBytes bytes = world.bytes(all);
-    const PairBytes resident = world.resident_bytes(all);
-    PairParts parts = parts_of(question);
-    const auto limits_of = [&](double share) {
-        const double more = 1.125 * static_cast<double>(bytes.found() + resident.found());
-        return PairLimits{everything, static_cast<std::uint64_t>(
-                                          more + share * static_cast<double>(bytes.scratch))};
-    };
-    world.search(parts, limits_of(0.3));
-    const std::size_t count = parts.count();
-    ASSERT_GE(count, 4U);
-    for (double share = 0.3; share < 6.0; share *= 1.1) {
-        const PairLimits limits = limits_of(share);
-        const std::size_t before = parts.count();
-        const bool was_joined = parts.join(limits);
-        EXPECT_EQ(world.search(parts, limits), 1);
-        EXPECT_EQ(parts.count(), was_joined ? before - 1 : before) << "memory for " << share;
-    }
-    EXPECT_LT(parts.count(), count);
-}
-
 TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
     const Searched world = even_world(1000, 40);
     const PairCounts all = world.counts(0, 1000);
@@ -85,40 +58,6 @@ TEST(PairParts, HaveNothingToSpareIfThereIsNoMemoryForIt) {
     EXPECT_EQ(one.search(of_one, {exactly, everything}), 1);
     EXPECT_EQ(of_one[0].capacities, one.counts(0, 1));
     EXPECT_NE(refusal(one, of_one, {exactly - 1, everything}), "");
-}
-
-/// What was counted of many says nothing about a few of them.
-TEST(PairParts, OfFewerInstancesThanWereCountedAreNotRefused) {
-    const Searched world = even_world(1000, 400);
-    const Searched few = even_world(2, 400);
-    const PairLimits limits{std::uint64_t{1} << 22U, everything};
-    PairParts parts = parts_of(penetrations);
-    static_cast<void>(parts.set_instances(1000));
-    parts.fit(limits);
-    parts.grow(0, world.counts(0, 1000), 1.0);
-    few.search(parts, limits);
-    EXPECT_EQ(parts.count(), 1U);
-}
-
-/// Each of the two is taken for half of both, until it was counted.
-TEST(PairParts, AreNotRefusedForWhatWasEstimated) {
-    const Searched world(penetrations, {{0, 0, 0, 45000, 0, 0}, {200000, 0, 0, 10, 0, 0}});
-    const std::uint64_t largest = std::max(world.bytes(world.counts(0, 1)).largest(),
-                                           world.bytes(world.counts(1, 2)).largest());
-    PairParts parts = parts_of(penetrations);
-    world.search(parts, {largest, everything});
-    EXPECT_EQ(parts.count(), 2U);
-}
-
-/// What was counted of one part and estimated of another is more than there is.
-TEST(PairParts, AreNotRefusedForEstimatesOfAllTogether) {
-    const Searched world(penetrations, {{0, 0, 0, 45000, 0, 0}, {200000, 0, 100000, 10, 0, 0}});
-    const PairBytes first = world.bytes(world.counts(0, 1));
-    const PairBytes second = world.bytes(world.counts(1, 2));
-    const std::uint64_t scratch = std::max(first.scratch, second.scratch);
-    PairParts parts = parts_of(penetrations);
-    world.search(parts, {everything, scratch + first.found() + second.found()});
-    EXPECT_EQ(parts.count(), 2U);
 }
 
 TEST(PairParts, SayWhatIsTooLarge) {
