@@ -2,6 +2,7 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/batch/batch_ring.hpp>
+#include <engine/queries/field_grid.hpp>
 
 #include <algorithm>
 #include <string>
@@ -80,6 +81,28 @@ void BatchRing::reserve(Frame& frame, const Batch& batch) {
         throw;
     }
     release(frame);
+}
+
+FieldGrid BatchRing::field_grid(const DistanceFieldQuery& query) const {
+    AnyQuery any = query;
+    const queries::QueryShapes shapes{shapes_->find(query.a.shape), shapes_->find(query.b.shape)};
+    choose_techniques({&any, 1}, {&shapes, 1}, planning_.rule);
+    AnyResult any_result;
+    queries::CheckedQuery checked;
+    std::optional<queries::Grid> grid;
+    if (queries::check(0, any, shapes, planning_.limits, checked, any_result)) {
+        grid = queries::grid_of_field(checked, std::get<DistanceFieldResult>(any_result));
+    }
+    if (!grid) {
+        throw StatusException(std::get<DistanceFieldResult>(any_result).status);
+    }
+    if (std::max(grid->width, grid->height) > UINT32_MAX) {
+        throw StatusException({StatusCode::too_large, "the field would have " +
+                                                          std::to_string(grid->width) + " by " +
+                                                          std::to_string(grid->height) + " cells"});
+    }
+    return {geometry::to_public(grid->origin), grid->cell, static_cast<std::uint32_t>(grid->width),
+            static_cast<std::uint32_t>(grid->height)};
 }
 
 void BatchRing::trim() noexcept {

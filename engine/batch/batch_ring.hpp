@@ -68,6 +68,8 @@ public:
     }
     /// The solvers, for queries of the technique `cpu` that are no batch.
     [[nodiscard]] solvers::SolverJobs& solvers() { return planning_.solvers; }
+    /// Throws StatusException as the query fails.
+    [[nodiscard]] FieldGrid field_grid(const DistanceFieldQuery& query) const;
     /// Drops the device memory that no batch in flight uses.
     void trim() noexcept;
     /// Lists the tiles of the batch started last.

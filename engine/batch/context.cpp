@@ -233,6 +233,10 @@ Expected<SamplesOnDevice> Context::on_device(Ticket ticket, QueryHandle<Intersec
         [&] { return implementation_->ring().on_device(ticket, query); });
 }
 
+Expected<FieldGrid> Context::field_grid(const DistanceFieldQuery& query) const {
+    return catch_to_expected([&] { return implementation_->ring().field_grid(query); });
+}
+
 Expected<std::vector<FieldOnDevice>> Context::layout_on_device(
     const Batch& batch, QueryHandle<DistanceFieldQuery> query) {
     return implementation_->unless_lost(

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
 
 namespace nearfield::render {
 
@@ -17,7 +20,7 @@ const passes::PairSearch& PipelineSet::pair_search(const device_input::PairSearc
         return *search;
     }
     const passes::FoundPairShaders* const finding =
-        kind.are_given() ? nullptr : &made(found_pair_shaders_, &instance_shaders());
+        kind.are_given() ? nullptr : &found_pair_shaders();
     return made(search, &made(search_shaders_), finding, kind);
 }
 
@@ -25,19 +28,41 @@ const passes::WorldQueries& PipelineSet::world_queries(device_input::WorldQuesti
     return made(world_queries_[static_cast<std::size_t>(question)], &instance_shaders(), question);
 }
 
-void PipelineSet::make(const DeviceTechniques& techniques) const {
-    static_cast<void>(exports());
+void PipelineSet::make(const DeviceTechniques& techniques, Jobs& jobs,
+                       const std::function<void()>& others) const {
+    std::vector<std::function<void()>> parts;
+    const auto add = [&parts](auto make_part) {
+        parts.emplace_back([make_part] { static_cast<void>(make_part()); });
+    };
+    const auto make_parts = [&] {
+        const auto count =
+            static_cast<std::uint32_t>(std::min<std::size_t>(parts.size(), jobs.count()));
+        jobs.run(count, [&](std::uint32_t job) {
+            for (std::size_t i = job; i < parts.size(); i += count) {
+                parts[i]();
+            }
+        });
+        parts.clear();
+    };
+    parts.push_back(others);
+    add([this] { return &exports(); });
     if (techniques.compute) {
-        static_cast<void>(masks());
-        static_cast<void>(fields());
-        static_cast<void>(pair_poses());
-        static_cast<void>(export_pairs());
+        add([this] { return &found_pair_shaders(); });
+        add([this] { return &made(search_shaders_); });
+        add([this] { return &fields(); });
+        add([this] { return &masks(); });
+        add([this] { return &pair_poses(); });
+        add([this] { return &export_pairs(); });
+    }
+    make_parts();
+    if (techniques.compute) {  // of what was made above
         for (const device_input::PairSearchKind& kind : device_input::pair_search_kinds) {
-            static_cast<void>(pair_search(kind));
+            add([this, kind] { return &pair_search(kind); });
         }
-        for (std::size_t question = 0; question < device_input::world_questions; ++question) {
-            static_cast<void>(world_queries(static_cast<device_input::WorldQuestion>(question)));
+        for (std::size_t i = 0; i < device_input::world_questions; ++i) {
+            add([this, i] { return &world_queries(static_cast<device_input::WorldQuestion>(i)); });
         }
+        make_parts();
     }
 }
 

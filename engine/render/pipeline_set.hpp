@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/jobs.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/graph/compute_layout.hpp>
@@ -13,6 +14,8 @@
 #include <passes/world_queries.hpp>
 
 #include <array>
+#include <atomic>
+#include <functional>
 #include <optional>
 
 namespace nearfield::render {
@@ -33,8 +36,9 @@ class PipelineSet {
 public:
     PipelineSet(const gpu::Device& device, const graph::ComputeLayout& layout)
         : device_(&device), layout_(&layout) {}
-    /// Makes all of these techniques.
-    void make(const DeviceTechniques& techniques) const;
+    /// Makes all of these techniques, divided among the jobs. `others`: to be made beside them.
+    void make(const DeviceTechniques& techniques, Jobs& jobs,
+              const std::function<void()>& others) const;
 
     [[nodiscard]] const ExportPipelines& exports() const { return made(exports_); }
     /// Compute, as are those that follow.
@@ -64,10 +68,13 @@ private:
     [[nodiscard]] const passes::InstanceShaders& instance_shaders() const {
         return made(instance_shaders_);
     }
+    [[nodiscard]] const passes::FoundPairShaders& found_pair_shaders() const {
+        return made(found_pair_shaders_, &instance_shaders());
+    }
 
     const gpu::Device* device_;
     const graph::ComputeLayout* layout_;
-    mutable double milliseconds_ = 0.0;
+    mutable std::atomic<double> milliseconds_ = 0.0;
     mutable std::optional<ExportPipelines> exports_;
     mutable std::optional<passes::Masks> masks_;
     mutable std::optional<passes::Fields> fields_;

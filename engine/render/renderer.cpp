@@ -19,11 +19,16 @@ Renderer::Renderer(const gpu::Device& device, const Settings& settings,
       layout_(device, passes::max_push_bytes),
       passes_(device, layout_),
       computed_(device, layout_, passes_) {
-    if (settings.techniques.raster) {
-        drawn_ = make_drawn(device, layout_, !settings.pipelines_on_demand);
-    }
-    if (!settings.pipelines_on_demand) {
-        passes_.make(settings.techniques);
+    const auto make_raster = [&] {
+        if (settings.techniques.raster) {
+            drawn_ = make_drawn(device, layout_, !settings.pipelines_on_demand);
+        }
+    };
+    if (settings.pipelines_on_demand) {
+        make_raster();
+    } else {
+        Jobs jobs(settings.jobs);
+        passes_.make(settings.techniques, jobs, make_raster);
     }
 }
 

@@ -146,9 +146,10 @@ struct MemoryUse {
 /// still frees everything, and create another on another device.
 class NEARFIELD_EXPORT Context {
 public:
-    /// Creates a context on a host's device, which must outlive it and all that keeps it. Fails with
-    /// unsupported_device if the device does not meet the base requirements (Status::reasons lists
-    /// all that it lacks), or with invalid_settings, out_of_memory, device_lost or device_error.
+    /// Creates a context on a host's device, which must outlive it and all that keeps it. Fails
+    /// with unsupported_device if the device does not meet the base requirements (Status::reasons
+    /// lists all that it lacks), or with invalid_settings, out_of_memory, device_lost or
+    /// device_error.
     [[nodiscard]] static Expected<Context> create(const HostDevice& host,
                                                   const Settings& settings = {});
 
@@ -286,8 +287,8 @@ public:
     /// and reference). No render pass is left open. No object of the host is touched, and no image
     /// of the library is left in a layout that matters.
     ///
-    /// The batch is complete when the host says so, by frame_completed(), and not before. Until then
-    /// its ticket is not ready, unless nothing was recorded because the CPU alone answers.
+    /// The batch is complete when the host says so, by frame_completed(), and not before. Until
+    /// then its ticket is not ready, unless nothing was recorded because the CPU alone answers.
     ///
     /// The memory suffices for all samples of intersections.
     ///
@@ -347,6 +348,13 @@ public:
     /// The samples of an intersection query; otherwise as for a field.
     [[nodiscard]] Expected<SamplesOnDevice> on_device(Ticket ticket,
                                                       QueryHandle<IntersectionQuery> query);
+
+    /// The grid that the result of a field will have, by any technique: the size of the host's own
+    /// images (FieldTarget). Makes, plans and reserves nothing. Fails as the query would.
+    ///
+    ///     const auto grid = context.field_grid(query);
+    ///     image = grid ? make_image(grid->width, grid->height) : VK_NULL_HANDLE;
+    [[nodiscard]] Expected<FieldGrid> field_grid(const DistanceFieldQuery& query) const;
 
     /// What on_device() will return for a query of a batch like this one: one entry for each of
     /// Settings::batches_in_flight, at the position OutputSlot::index. Reserves memory in all of

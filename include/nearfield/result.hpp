@@ -104,6 +104,14 @@ struct FieldPoint {
     bool unique = true;  ///< as PenetratingPoint::unique, for `feature` and the analytic gradient
 };
 
+/// The grid of a distance field: its cells, row by row from the lowest.
+struct FieldGrid {
+    Vector2 origin;            ///< low corner of cell (0, 0), world coordinates
+    double cell = 0.0;         ///< side of a cell, world units
+    std::uint32_t width = 0;   ///< cells along x
+    std::uint32_t height = 0;  ///< cells along y
+};
+
 /// Answer to a DistanceFieldQuery. `error_bound` bounds the difference from the exact signed
 /// distance at every cell centre that was read back.
 ///

@@ -109,7 +109,11 @@ Batch resident_queries(const Batch& every) {
         std::visit(
             [&](auto kept) {
                 if constexpr (requires { kept.on_device; }) {
-                    if (kept.technique == Technique::compute) {
+                    bool can_stay = kept.technique == Technique::compute;
+                    if constexpr (requires { kept.normals; }) {
+                        can_stay = can_stay && kept.normals == ContactNormals::analytic;
+                    }
+                    if (can_stay) {
                         kept.on_device = true;
                         batch.add(kept);
                     }

@@ -167,6 +167,10 @@ protected:
     }
 
     void measure_layout() {
+        measure("`field_grid`", [&] {
+            const auto& field = std::get<DistanceFieldQuery>(batch_.queries()[field_.index]);
+            EXPECT_TRUE(context_->field_grid(field).has_value());
+        });
         measure("`layout_on_device`",
                 [&] { EXPECT_TRUE(context_->layout_on_device(batch_, field_).has_value()); });
     }

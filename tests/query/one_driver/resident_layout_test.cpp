@@ -369,5 +369,37 @@ TEST_F(ResidentLayout, TimestampsCanBeTurnedOff) {
     EXPECT_GT(results.timings.device, 0.0);
 }
 
+TEST_F(ResidentLayout, FieldsHaveTheGridThatIsToldBefore) {
+    const MemoryUse before = made().memory_use();
+    for (const std::optional<Rectangle>& rectangle :
+         {std::optional<Rectangle>(), std::optional(Rectangle{{-1.5, -1.25}, {1.0, 1.5}})}) {
+        for (const double tolerance : {0.5, 0.03, 0.0101}) {
+            DistanceFieldQuery field{{shape_, {{0.2, 0.1}, 0.4}}, {other_, {{0.5, 0.0}, 1.0}}};
+            field.tolerance = tolerance;
+            field.rectangle = rectangle;
+            for (const Technique technique : every_technique) {
+                SCOPED_TRACE(to_string(technique));
+                field.technique = technique;
+                const Expected<FieldGrid> grid = made().field_grid(field);
+                ASSERT_TRUE(grid.has_value()) << grid.error().text();
+                EXPECT_TRUE(technique != every_technique.front() || tolerance != 0.5 || rectangle ||
+                            made().memory_use().in_use == before.in_use);
+                const DistanceFieldResult result = run_alone(made(), field);
+                ASSERT_TRUE(result.status.ok()) << result.status.text();
+                EXPECT_EQ(grid->origin, result.origin);
+                EXPECT_EQ(grid->cell, result.cell);
+                EXPECT_EQ(grid->width, result.width);
+                EXPECT_EQ(grid->height, result.height);
+            }
+        }
+    }
+    DistanceFieldQuery bad{{shape_, {}}, {other_, {}}};
+    bad.tolerance = -1.0;
+    EXPECT_EQ(made().field_grid(bad).error().code(), StatusCode::invalid_query);
+    bad.tolerance = 0.1;
+    bad.b.shape = {};
+    EXPECT_EQ(made().field_grid(bad).error().code(), StatusCode::unknown_shape);
+}
+
 }  // namespace
 }  // namespace nearfield::test
