@@ -1,5 +1,4 @@
 #include <tests/oracle/boundary.hpp>
-#include <tests/oracle/overlap.hpp>
 #include <tests/oracle/plane.hpp>
 #include <tests/query/check.hpp>
 #include <tests/query/point_index.hpp>
@@ -144,7 +143,7 @@ void check_area(Report& report, const PlacedPair& pair, const IntersectionResult
     const double reach = result.error_bound + pair.tolerance();
     const double length =
         length_near(pair.a(), pair.b(), 2 * reach) + length_near(pair.b(), pair.a(), 2 * reach);
-    const double truth = oracle::overlap(pair.a(), pair.b()).area;
+    const double truth = pair.common_area();
     report.require(std::abs(result.area - truth) <= 2 * reach * length, "area ", result.area,
                    ", should be ", truth, " within ", 2 * reach * length);
 }

@@ -75,6 +75,13 @@ Query asked(const PlacedPair& pair, Technique technique) {
 
 }  // namespace
 
+double PlacedPair::common_area() const {
+    if (!common_area_) {
+        common_area_ = oracle::overlap(oracle_a_, oracle_b_).area;
+    }
+    return *common_area_;
+}
+
 PenetrationQuery PlacedPair::penetration(PenetrationPoints points) const {
     auto query = asked<PenetrationQuery>(*this, technique_);
     query.points = points;

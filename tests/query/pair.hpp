@@ -42,6 +42,8 @@ public:
     [[nodiscard]] double rounding() const { return oracle_a_.rounding() + oracle_b_.rounding(); }
     /// Whether the shapes intersect, if rounding cannot affect it; found out once.
     [[nodiscard]] Truth intersects() const;
+    /// Of the shapes' intersection; found out once.
+    [[nodiscard]] double common_area() const;
 
     [[nodiscard]] PenetrationQuery penetration(
         PenetrationPoints points = PenetrationPoints::boundary) const;
@@ -61,6 +63,7 @@ private:
     ShapeHandle handle_a_;
     ShapeHandle handle_b_;
     mutable std::optional<Truth> intersects_;
+    mutable std::optional<double> common_area_;
 };
 
 /// Shapes of random families and sizes that usually overlap; some far from the origin of the world,

@@ -1,13 +1,6 @@
-#include <tests/oracle/plane.hpp>
 #include <tests/query/check.hpp>
-#include <tests/query/match.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/allocations.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 
 namespace nearfield::test {
 namespace {
@@ -62,35 +55,6 @@ TEST_F(Techniques, CrossingWithoutAVertexInside) {
         EXPECT_EQ(results[handles[static_cast<std::size_t>(i)]].count > 0, y > 4.05 && y < 5.95)
             << y;
     }
-}
-
-/// Normals from the gradient of B's field, with the field by each technique.
-TEST_F(Techniques, AgreeOnNormalsByGradient) {
-    Random random(techniques_seed);
-    const Pair pair{
-        {"A", star(random, 20, 0.4)}, {"B", star(random, 25, 0.3)}, {}, {{1.2, 0.3}, 0.2}, 0.02};
-    const PlacedPair raster(context(), pair, Technique::raster);
-    const PlacedPair cpu(context(), pair, Technique::cpu);
-    ContactQuery query = raster.contacts(0.03);
-    query.normals = ContactNormals::gradient;
-    const ContactResult drawn = run_alone(context(), query);
-    query = cpu.contacts(0.03);
-    query.normals = ContactNormals::gradient;
-    const ContactResult exact = run_alone(context(), query);
-    EXPECT_EQ(exact.technique, Technique::cpu);
-    ASSERT_TRUE(exact.status.ok()) << exact.status.text();
-    ASSERT_GT(exact.points.size(), 10U);
-    int compared = 0;
-    match(
-        exact.points, drawn.points,
-        [&](const ContactPoint& i, const ContactPoint& j) {
-            // Only where the differences are meaningful: each component has an error of up to 0.31
-            // of a cell's side on the device (docs/error_budget.md), and almost none on the CPU.
-            EXPECT_GT(oracle::dot(i.normal, j.normal), 0.5);
-            ++compared;
-        },
-        [](const ContactPoint&) {});
-    EXPECT_GT(compared, 10);
 }
 
 TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {

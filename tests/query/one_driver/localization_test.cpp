@@ -18,7 +18,7 @@ TEST_F(Localization, NoSettingChangesWhatIsTrue) {
             const std::uint64_t seed = 40 + height;
             std::vector<Pair> pairs = family_pairs(seed);
             Random random(seed);
-            for (int i = 0; i < random_cases(3); ++i) {
+            for (int i = 0; i < random_cases(1); ++i) {
                 pairs.push_back(any_pair(random));
             }
             for (Pair& one : pairs) {
