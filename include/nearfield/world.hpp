@@ -246,7 +246,8 @@ public:
     Status record(PairTableBase& table, const Recording& recording,
                   const PairTableInput& input = {}, const Limits& limits = {});
     /// False if a table has to be recorded (again): collect() reported an overflow, or instances,
-    /// their filters or their shapes are others than they were. Poses and other shapes do not count.
+    /// their filters or their shapes are others than they were. Poses and other shapes do not
+    /// count.
     [[nodiscard]] bool is_recorded(const PairTableBase& table) const noexcept;
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
