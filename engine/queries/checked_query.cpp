@@ -105,15 +105,7 @@ bool check(std::uint32_t index, const AnyQuery& any, const QueryShapes& shapes,
            const QueryLimits& limits, CheckedQuery& checked, AnyResult& any_result) {
     return std::visit(
         [&]<class Query>(const Query& query) {
-            auto& result = make_empty<typename Query::Result>(any_result, true);
-            if constexpr (requires { query.tolerance; }) {
-                result.tolerance = query.tolerance;
-            }
-            if constexpr (std::is_same_v<Query, IntersectionQuery>) {
-                result.kind = query.kind;
-                result.strategy = query.strategy;
-            }
-            result.technique = query.technique;
+            auto& result = begin_result(query, any_result, true);
             // Success is not copied: thousands of queries have it in common.
             Status status = check_with_shapes(query, shapes, limits);
             if (!status.ok()) {

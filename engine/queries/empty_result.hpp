@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 
 #include <type_traits>
@@ -61,14 +62,26 @@ Result& make_empty(AnyResult& any, bool keeps_cells = false) {
     return result;
 }
 
+/// Returns an empty result of a query, which states what the query itself says, and nothing of what
+/// it held before. `keeps_cells`: see make_empty().
+template <class Query>
+typename Query::Result& begin_result(const Query& query, AnyResult& any, bool keeps_cells = false) {
+    auto& result = make_empty<typename Query::Result>(any, keeps_cells);
+    result.tolerance = result.cell = 0.0;
+    if constexpr (requires { query.tolerance; }) {
+        result.tolerance = query.tolerance;
+    }
+    if constexpr (std::is_same_v<Query, IntersectionQuery>) {
+        result.kind = query.kind;
+        result.strategy = query.strategy;
+    }
+    result.technique = query.technique;
+    return result;
+}
+
 /// Makes the result of a query empty, with a status.
 inline void make_refused(const AnyQuery& any_query, const Status& status, AnyResult& any) {
-    std::visit(
-        [&](const auto& query) {
-            using Result = typename std::decay_t<decltype(query)>::Result;
-            make_empty<Result>(any).status = status;
-        },
-        any_query);
+    std::visit([&](const auto& query) { begin_result(query, any).status = status; }, any_query);
 }
 
 /// Gives a result that is not done a status, and takes from it what was found so far.
