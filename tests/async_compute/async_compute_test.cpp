@@ -21,7 +21,8 @@ using Words = std::vector<std::uint32_t>;
 
 /// A context, and two shapes that every context has alike.
 struct Scene {
-    explicit Scene(const HostDevice& host, const Settings& settings = {}) {
+    explicit Scene(const HostDevice& host, Settings settings = {}) {
+        settings.pipelines_on_demand = true;
         Expected<Context> made = Context::create(host, settings);
         if (!made) {
             throw std::runtime_error(made.error().text());

@@ -96,7 +96,8 @@ TEST(Hash, IsTheSameForAnyNumberOfJobs) {
 }
 
 TEST(Hash, IsTheSameWithADevice) {
-    const auto on_device = [](const Settings& settings) {
+    const auto on_device = [](Settings settings) {
+        settings.pipelines_on_demand = true;
         return tools::take(Context::create_headless({}, settings));
     };
     EXPECT_EQ(sample(on_device), sample(cpu_context));

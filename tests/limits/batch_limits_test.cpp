@@ -156,6 +156,13 @@ private:
     ShapeHandle b_;
 };
 
+/// Makes no pipelines that a test does not need.
+Expected<Context> headless() {
+    Settings settings;
+    settings.pipelines_on_demand = true;
+    return Context::create_headless({}, settings);
+}
+
 Rings large_star(std::uint64_t seed) {
     Random random(seed);
     return star(random, 600, 0.6);
@@ -163,7 +170,7 @@ Rings large_star(std::uint64_t seed) {
 
 /// Each query alone, by each technique: planned, answered by the CPU or read back from the device.
 TEST(BatchLimits, CutEveryQueryAtEveryStage) {
-    Pair pair(Context::create_headless(), large_star(1), large_star(2));
+    Pair pair(headless(), large_star(1), large_star(2));
     const Batch every = pair.every();
     for (std::size_t i = 0; i < every.queries().size(); ++i) {
         SCOPED_TRACE("query " + std::to_string(i) + " of every_query()");
@@ -178,12 +185,12 @@ TEST(BatchLimits, CutEveryQueryAtEveryStage) {
 }
 
 TEST(BatchLimits, CutABatchOfAllQueriesAnywhere) {
-    Pair pair(Context::create_headless(), large_star(3), large_star(4));
+    Pair pair(headless(), large_star(3), large_star(4));
     EXPECT_GT(pair.cut_everywhere(pair.every()), 40U);
 }
 
 TEST(BatchLimits, CutEntangledShapesInsideEachStage) {
-    Pair pair(Context::create_headless(), nested(60), nested(60));
+    Pair pair(headless(), nested(60), nested(60));
     const Instance at = pair.a();
     for (const Technique technique : every_technique) {
         SCOPED_TRACE(to_string(technique));
@@ -269,7 +276,7 @@ TEST(BatchLimits, EndJobsOnAllThreads) {
 
 /// A batch in flight: the limits of submit() end the planning, those of collect() the reading.
 TEST(BatchLimits, HoldForOneCallOfABatchInFlight) {
-    Pair pair(Context::create_headless(), large_star(9), large_star(10));
+    Pair pair(headless(), large_star(9), large_star(10));
     const Batch batch = pair.every();
     const Results whole = pair.answer(batch);
     Results results;
@@ -301,7 +308,7 @@ TEST(BatchLimits, HoldForOneCallOfABatchInFlight) {
 }
 
 TEST(BatchLimits, ChangeNothingThatTheyDoNotEnd) {
-    Pair pair(Context::create_headless(), large_star(11), large_star(12));
+    Pair pair(headless(), large_star(11), large_star(12));
     const Batch batch = pair.every();
     Cut none(0);
     Results results;
@@ -314,7 +321,7 @@ TEST(BatchLimits, ChangeNothingThatTheyDoNotEnd) {
 }
 
 TEST(BatchLimits, OfNoTimeAnswerNothing) {
-    Pair pair(Context::create_headless(), large_star(13), large_star(14));
+    Pair pair(headless(), large_star(13), large_star(14));
     const Batch batch = pair.every();
     Limits limits;
     limits.seconds = 0.0;
