@@ -153,18 +153,6 @@ void BatchRing::run(const Batch& batch, Results& results) {
     collect(submit(batch, {}, &results, laps), results, laps);
 }
 
-void BatchRing::answer(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
-                       Results& results) {
-    if (cpu_runner_ == nullptr) {
-        cpu_runner_ = std::make_unique<BatchRunner>(planning_, nullptr);
-    }
-    std::swap(results, cpu_runner_->results());
-    Laps laps;
-    cpu_runner_->submit(queries, find_shape, laps);
-    cpu_runner_->collect(laps);
-    std::swap(results, cpu_runner_->results());
-}
-
 void BatchRing::require_open_frame(const Recording& recording) const {
     if (recording.commands == VK_NULL_HANDLE) {
         throw StatusException({StatusCode::invalid_submission, "Recording::commands is null"});

@@ -43,10 +43,6 @@ public:
     /// there is no such batch, (not_ready) if its frame is not complete; after any other
     /// StatusException the ticket is used up.
     void collect(Ticket ticket, Results& results);
-    /// Answers queries of the technique `cpu`, which are not counted among the batches in flight.
-    /// Replaces `results`. Throws as submit().
-    void answer(std::span<const AnyQuery> queries, const queries::FindShape& find_shape,
-                Results& results);
     /// The resident output of a query of a batch in flight. Throws as collect() does, and if the
     /// query has none.
     template <class Query>
@@ -122,7 +118,6 @@ private:
     ShapeStore* shapes_;
     Planning planning_;
     std::vector<std::unique_ptr<Frame>> frames_;
-    std::unique_ptr<BatchRunner> cpu_runner_;  // made when first needed
     std::uint64_t last_number_ = 0;
     const Frame* last_ = nullptr;            // of the batch started last; null if it failed
     std::optional<std::uint64_t> complete_;  // the last complete frame of the host

@@ -7,13 +7,6 @@
 #include <utility>
 
 namespace nearfield::render {
-namespace {
-
-/// In place of the number of pairs until the device has counted them.
-constexpr std::uint32_t not_counted = UINT32_MAX;
-
-}  // namespace
-
 PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
                                      const passes::PairSearch& passes,
                                      const device_input::PairQuestion& question,
@@ -197,8 +190,7 @@ void PairSearchBuffers::record(VkCommandBuffer commands, const device_input::Sea
 }
 
 PairTableCounts PairSearchBuffers::found() const {
-    const PairTableCounts found = memory_.found();
-    return is_submitted_ || found.pairs == not_counted ? PairTableCounts{} : found;
+    return is_submitted_ ? PairTableCounts{} : memory_.found();
 }
 
 void PairSearchBuffers::collect(Timings& timings) {

@@ -18,7 +18,7 @@ bool have_room(const PairCounts& counts, const PairCounts& capacities, double he
         [headroom](std::uint32_t count, std::uint32_t room) { return headroom * count <= room; });
 }
 
-PairTableCounts told(const PairCounts& counts) {
+PairTableCounts table_counts(const PairCounts& counts) {
     return {.pairs = counts[shaders::pair_total],
             .points = counts[shaders::record_total],
             .rows = counts[shaders::row_total],
@@ -280,12 +280,12 @@ PairTableCounts SearchMemory::found() const {
     PairCounts all{};
     for (const auto& part : memories_) {
         const PairCounts own = part->read_counts();
-        all = own[shaders::pair_total] == UINT32_MAX ? own : sum(all, own);
-        if (own[shaders::pair_total] == UINT32_MAX) {
-            break;
+        if (own[shaders::pair_total] == not_counted) {
+            return {};
         }
+        all = sum(all, own);
     }
-    return told(all);
+    return table_counts(all);
 }
 
 PairTableCounts SearchMemory::room() const {
@@ -293,7 +293,7 @@ PairTableCounts SearchMemory::room() const {
     for (const auto& part : memories_) {
         all = sum(all, part->input().capacities);
     }
-    return told(all);
+    return table_counts(all);
 }
 
 std::uint32_t SearchMemory::candidates() const {

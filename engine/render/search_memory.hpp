@@ -21,6 +21,9 @@
 
 namespace nearfield::render {
 
+/// In place of the number of pairs until the device has counted them.
+inline constexpr std::uint32_t not_counted = UINT32_MAX;
+
 /// The arrays in the scratch memory of a search, one after the other.
 class ScratchLayout {
 public:
@@ -163,8 +166,9 @@ public:
     [[nodiscard]] std::span<const PairCounts> counts() const { return counts_; }
     /// Whether there was room for `headroom` times as much.
     [[nodiscard]] bool had_room(double headroom = 1.0) const;
-    /// What the device has counted last of all parts, and what there is room for: at any time.
+    /// What the device has counted last, of all parts; zeros if it has not executed one of them.
     [[nodiscard]] PairTableCounts found() const;
+    /// What there is room for, of all parts.
     [[nodiscard]] PairTableCounts room() const;
     /// Throws StatusException (overflow) without.
     void require_room() const;

@@ -30,7 +30,7 @@ const AnyResult* DevicePairs::find_decided(std::uint32_t row) const {
         std::lower_bound(decided_.begin(), decided_.end(), row,
                          [](const Decided& one, std::uint32_t other) { return one.row < other; });
     return found != decided_.end() && found->row == row
-               ? &decided_results_.results[static_cast<std::size_t>(found - decided_.begin())]
+               ? &decided_results_[static_cast<std::size_t>(found - decided_.begin())]
                : nullptr;
 }
 
@@ -55,10 +55,10 @@ AnyQuery DevicePairs::query_on_cpu(const shaders::PairRowData& data, bool with_r
 }
 
 const AnyResult& DevicePairs::answer_on_cpu(const shaders::PairRowData& data, bool with_records) {
-    cpu_queries_.assign(1, query_on_cpu(data, with_records));
-    context_->ring().answer(
-        cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, cpu_results_);
-    return cpu_results_.results.front();
+    ask_cpu(
+        1, with_records, [&](std::size_t) -> const shaders::PairRowData& { return data; },
+        [](std::size_t, const AnyResult&) {});
+    return questions_.front().result;
 }
 
 const device_input::PlannedQuery& DevicePairs::plan_pair(const shaders::PairRowData& data) {

@@ -1,5 +1,6 @@
 // How pairs that the device finds are brought up to date.
 
+#include <engine/base/catch_to_status.hpp>
 #include <engine/base/interruption.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/device_input/check_target.hpp>
@@ -122,16 +123,14 @@ void DevicePairs::answer_undecided() {
         }
         return;
     }
-    cpu_queries_.clear();
-    for (const Decided& one : decided_) {
-        cpu_queries_.emplace_back(query_on_cpu(one.pair, false));
-    }
-    context_->ring().answer(
-        cpu_queries_, [this](ShapeHandle shape) { return polygon_of(shape); }, decided_results_);
-    checkpoint();  // what was cut must not look whole
-    for (std::size_t i = 0; i < decided_.size(); ++i) {
-        decided_[i].has_row = is_hit(decided_results_.results[i], decided_[i].pair);
-    }
+    decided_results_.resize(std::max(decided_results_.size(), decided_.size()));
+    ask_cpu(
+        decided_.size(), false,
+        [this](std::size_t i) -> const shaders::PairRowData& { return decided_[i].pair; },
+        [this](std::size_t i, const AnyResult& result) {
+            decided_results_[i] = result;
+            decided_[i].has_row = is_hit(result, decided_[i].pair);
+        });
 }
 
 /// Answers what single precision could not decide, and drops the rows without points.
@@ -356,12 +355,21 @@ bool DevicePairs::is_ready() const {
     return is_submitted_ && (buffers_ == nullptr || buffers_->is_done());
 }
 
+PairTableCounts DevicePairs::found() const noexcept {
+    PairTableCounts found;
+    if (buffers_ != nullptr) {
+        // A device that is lost has found nothing.
+        static_cast<void>(catch_to_status([&] { found = buffers_->found(); }));
+    }
+    return found;
+}
+
 /// What is made anew has room for twice what was found last.
 void DevicePairs::trim() noexcept {
     if (buffers_ == nullptr || (frame_ ? !context_->is_complete(*frame_) : is_submitted_)) {
         return;
     }
-    const PairTableCounts found = buffers_->found();
+    const PairTableCounts found = this->found();
     const auto twice = [](std::uint32_t reserved, std::uint32_t count) {
         return std::max(reserved, count < UINT32_MAX / 2 ? 2 * count : 0);
     };

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <engine/base/interruption.hpp>
 #include <engine/batch/contacts.hpp>
 #include <engine/batch/point_resolver.hpp>
 #include <engine/device_input/pair_question.hpp>
 #include <engine/device_input/plan.hpp>
 #include <engine/render/pair_search_buffers.hpp>
 #include <engine/solvers/found_contacts.hpp>
+#include <engine/solvers/solver_jobs.hpp>
 #include <engine/world/device_instances.hpp>
 #include <engine/world/pair_row.hpp>
 #include <engine/world/world_view.hpp>
@@ -13,6 +15,7 @@
 #include <nearfield/pairs_on_device.hpp>
 #include <nearfield/submission.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -50,9 +53,7 @@ public:
     /// Whether what was recorded is about the world as it is, and has room.
     [[nodiscard]] bool is_recorded(const WorldView& world) const;
     [[nodiscard]] bool is_ready() const;
-    [[nodiscard]] PairTableCounts found() const {
-        return buffers_ == nullptr ? PairTableCounts{} : buffers_->found();
-    }
+    [[nodiscard]] PairTableCounts found() const noexcept;
     [[nodiscard]] PairTableCounts capacity() const {
         return buffers_ == nullptr ? PairTableCounts{} : buffers_->room();
     }
@@ -114,6 +115,9 @@ private:
     [[nodiscard]] const geometry::Polygon* polygon_of(ShapeHandle shape) const {
         return instances_.polygon_of(shape);
     }
+    /// Asks the CPU about `count` pairs: calls `take(i, result)` for each `pair_of(i)`.
+    template <class PairOf, class Take>
+    void ask_cpu(std::size_t count, bool with_records, const PairOf& pair_of, const Take& take);
     [[nodiscard]] const AnyResult& answer_on_cpu(const shaders::PairRowData& data,
                                                  bool with_records);
     template <class Query>
@@ -158,14 +162,13 @@ private:
     PairTableCounts reserve_;  // for buffers that are made
     DeviceInstances instances_{query_, question_};
     std::uint32_t rows_ = 0;
-    std::vector<Decided> decided_;  // in ascending order of the rows
-    Results decided_results_;
+    std::vector<Decided> decided_;             // in ascending order of the rows
+    std::vector<AnyResult> decided_results_;   // of the first ones; the rest is memory
     std::vector<std::uint32_t> dropped_rows_;  // of the device, in ascending order
     // For reading rows, as are those that follow: a pair, and its other direction.
     device_input::PlannedQuery of_a_;
     device_input::PlannedQuery of_b_;
-    std::vector<AnyQuery> cpu_queries_;
-    Results cpu_results_;
+    std::vector<solvers::SolverJobs::Question> questions_;  // to the CPU, by job
     batch::ContactDecoder contact_decoder_;
     solvers::FoundContacts found_contacts_;
     ContactResult contacts_;
@@ -177,5 +180,22 @@ private:
     bool is_submitted_ = false;           // or recorded, and not collected
     bool lacks_room_ = false;             // what was recorded
 };
+
+template <class PairOf, class Take>
+void DevicePairs::ask_cpu(std::size_t count, bool with_records, const PairOf& pair_of,
+                          const Take& take) {
+    solvers::SolverJobs& solvers = context_->ring().solvers();
+    questions_.resize(solvers.jobs());
+    expect_answers(count);
+    solvers.answer_each(
+        count, questions_,
+        [&](std::size_t i, solvers::SolverJobs::Question& question) {
+            const shaders::PairRowData& pair = pair_of(i);
+            question.query = query_on_cpu(pair, with_records);
+            question.shapes = {polygon_of(instances_[pair.a].instance.shape),
+                               polygon_of(instances_[pair.b].instance.shape)};
+        },
+        [&](std::uint32_t /*job*/, std::size_t i, const AnyResult& result) { take(i, result); });
+}
 
 }  // namespace nearfield

@@ -77,8 +77,9 @@ struct Settings {
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
     /// The amount of work from which Technique::automatic selects compute on a hardware device.
     DeviceThresholds device_thresholds = {};
-    /// Host threads for the queries that the CPU answers. Its function and `user` must stay valid
-    /// for the lifetime of the context. Default: everything runs on the calling thread.
+    /// Host threads for the queries that the CPU answers and for making pipelines. Its function and
+    /// `user` must stay valid for the lifetime of the context. Default: everything runs on the
+    /// calling thread.
     JobSystem jobs = {};
     /// Techniques to build pipelines for. Technique::automatic never selects a technique that is
     /// left out, and a query that names one fails with StatusCode::unsupported_technique in its own

@@ -17,8 +17,9 @@ enum class LogLevel {
 /// Receives log messages. Silent by default. When `write` is set: creation and destruction,
 /// pipeline build times, growth, device loss.
 ///
-/// `write` is called by the thread that called the library, during that call; it must not throw or
-/// call the context. `message` is one line without a line break, valid during the call.
+/// `write` is called by the thread that called the library, during that call, and by the jobs that
+/// make pipelines (Settings::jobs), which may run concurrently. It must not throw or call the
+/// context. `message` is one line without a line break, valid during the call.
 struct Log {
     void* user = nullptr;  ///< passed to `write`
     /// Receives one message.

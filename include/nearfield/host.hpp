@@ -46,15 +46,15 @@ struct MemoryRequest {
     const char* name = "";  ///< what it is for; valid during the call
 };
 
-/// In place of a memory type that a host's allocator does not tell.
+/// Stands for the memory type if the host's allocator does not report it.
 inline constexpr std::uint32_t unknown_memory_type = UINT32_MAX;
 
 /// Device memory that a host gave: bytes `offset` to `offset` + requirements.size of `memory`.
 struct MemoryAllocation {
     VkDeviceMemory memory = VK_NULL_HANDLE;  ///< of HostDevice::device; may hold other data too
     VkDeviceSize offset = 0;                 ///< a multiple of requirements.alignment
-    /// That `memory` was allocated from. Unknown: it is taken to be one of the allowed types, and
-    /// mapped memory to be non-coherent.
+    /// The type that `memory` was allocated from. If it is unknown, the library assumes one of the
+    /// allowed types, and that mapped memory is not coherent.
     std::uint32_t memory_type = unknown_memory_type;
     /// Where the host sees the byte at `offset`, if the memory has to be mapped; it stays mapped
     /// until it is freed. Otherwise ignored.

@@ -248,8 +248,8 @@ struct DistanceFieldQuery {
 /// The source of contact normals.
 enum class ContactNormals {
     analytic,  ///< the nearest feature: exact
-    /// The paper's: bilinear interpolation of central differences of B's signed field, which the
-    /// CPU takes around the contacts once they are found.
+    /// The paper's: bilinear interpolation of central differences of B's signed field. By every
+    /// technique, the CPU computes this field around the contacts found.
     gradient,
 };
 

@@ -22,7 +22,7 @@ enum class StatusCode {
     unknown_shape,     ///< a handle that was never issued, or whose shape was removed
     unknown_instance,  ///< an instance handle that was never issued, or whose instance was removed
     invalid_settings,  ///< invalid settings of a context, or an invalid structure of a host
-    invalid_submission,  ///< an invalid semaphore, command buffer or frame of a batch
+    invalid_submission,  ///< an invalid semaphore, command buffer or frame; no queue to submit to
     unknown_ticket,      ///< a ticket that was never issued, or was already collected
     ring_full,           ///< the limit of batches in flight is reached; collect one first
     not_ready,           ///< a recorded batch's frame is not complete, or batches are in flight

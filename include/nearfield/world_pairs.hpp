@@ -57,13 +57,13 @@ struct PairTableOptions {
     /// stay on the device, if the poses are the host's (DevicePoses), or if commands are recorded.
     /// Otherwise compute on a hardware device for what it answers, else cpu; for a list always cpu.
     Technique technique = Technique::automatic;
-    /// Technique::compute: numbers that the device has room for before it has found any, for
-    /// example what PairTable::found() said of another table. The last three, if they are 0, follow
-    /// from pairs and points: 4 groups and 8 edges for each pair, 4 tested points for each point.
+    /// Technique::compute: the device has memory for at least these numbers before the first
+    /// search. PairTable::found() of another table is a good value. If one of the last three is 0,
+    /// it follows from the others: 4 groups and 8 edges per pair, 4 tested points per point.
     PairTableCounts reserve = {};
-    /// Technique::compute, for World::record(), whose commands cannot search again: room for at
-    /// least so many times what the search before has found, 1 or more. Where there is less, the
-    /// next World::record() makes at least twice the room, without a wait.
+    /// Technique::compute: a factor, 1 to 1024. Recorded commands cannot search again, so
+    /// World::record() provides memory for this many times what the previous search found. Where it
+    /// has to grow, it at least doubles (if the factor is above 1), and does not wait.
     double headroom = 1.5;
 };
 
@@ -95,14 +95,17 @@ public:
     /// The number of candidates that the CPU answered at the last update: pairs that have changed
     /// or, by Technique::compute, pairs found that single precision cannot decide; 0 for a list.
     [[nodiscard]] std::uint32_t left_to_cpu() const noexcept;
-    /// By Technique::compute, what the search that ended last has found, though others may be in
-    /// flight: of recorded commands, those of the last execution, whether collected or not. Where a
-    /// number exceeds capacity(), later ones may be too low. Zeros before the first search.
+    /// By Technique::compute, what the last search found. For recorded commands that is the last
+    /// execution that the device has finished, collected or not, even while it executes others. If
+    /// a number exceeds capacity(), the numbers of later steps may be too low. Zeros before the
+    /// first search, from World::submit() until collect(), and from World::record() until the
+    /// device has executed the commands.
     [[nodiscard]] PairTableCounts found() const noexcept;
     /// By Technique::compute, the numbers that there is room for on the device.
     [[nodiscard]] PairTableCounts capacity() const noexcept;
-    /// Gives back all memory of the device, and the rows with it. The next search has room for
-    /// twice what the last one has found. Does nothing while the device may be using the memory.
+    /// Frees all memory of the device, and drops the rows. The next search has memory for twice
+    /// what the last one found. Does nothing from World::submit() until collect(), and until the
+    /// frame of World::record() is complete; by then the device must be done with the commands.
     void trim() noexcept;
     /// The times of the last update. `plan`: finding pairs on the CPU, or the upload of what has
     /// changed; `device`: the wait; `decode`: pairs that the CPU answered; `total`: both halves,
