@@ -30,6 +30,7 @@ struct PairTableCounts {
     std::uint32_t edges = 0;          ///< of these groups, near the other shape's box
     std::uint32_t tested_points = 0;  ///< of these edges; `points` of them are near or inside
 
+    /// True if all members are equal.
     friend bool operator==(const PairTableCounts&, const PairTableCounts&) = default;
 };
 
