@@ -147,7 +147,7 @@ void ResultWriter::write(const Input& input, ContactResult& result) {
 void ResultWriter::write(const Input& input, SeparationResult& result) {
     const PlannedQuery& planned = input.planned;
     const queries::PlacedPair pair = queries::place_pair(planned, workspace_.instances);
-    queries::complete(pair, workspace_.instances);
+    queries::prepare(pair, workspace_.instances);
     double sampled = std::numeric_limits<double>::infinity();
     if (!result.intersects) {
         sampled = sampled_distance(input.plan, planned, input.answers);

@@ -143,6 +143,7 @@ Status Polygon::assign(std::span<const Ring> rings, double deviation) {
     ring_ends_.reserve(rings.size());
 
     ++revision_;
+    boxes_.forget();
     centre_ = 0.5 * (box.min() + box.max());
     deviation_ = deviation;
     length_along_axes_ = length;

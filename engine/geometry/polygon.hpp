@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/geometry/edge_boxes.hpp>
 #include <engine/geometry/vector.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
@@ -48,6 +49,11 @@ public:
     }
     [[nodiscard]] std::uint32_t ring_end(std::uint32_t ring) const { return ring_ends_[ring]; }
 
+    /// Boxes over the edges where a search gains by them: KeptEdgeBoxes::find().
+    [[nodiscard]] const EdgeBoxes* find_boxes(BoxSearch search) const {
+        return boxes_.find(*this, search);
+    }
+
     /// The ring of vertex (or edge) i.
     [[nodiscard]] std::uint32_t ring_of(std::uint32_t i) const;
     /// The vertex after vertex i on its ring.
@@ -63,6 +69,7 @@ private:
     double radius_ = 0.0;
     std::vector<Vector> vertices_;
     std::vector<std::uint32_t> ring_ends_;
+    KeptEdgeBoxes boxes_;
 };
 
 }  // namespace nearfield::geometry

@@ -42,7 +42,11 @@ Box TransformedPolygon::chain_box(std::uint32_t ring, std::uint32_t first,
 }
 
 Box TransformedPolygon::box() const {
-    return box_of(polygon_->vertices());
+    // Of fewer vertices, to place them all takes less time than to search the boxes.
+    constexpr std::uint32_t many = 2048;
+    const EdgeBoxes* const boxes =
+        polygon_->size() >= many ? polygon_->find_boxes(BoxSearch::extent) : nullptr;
+    return boxes != nullptr ? kernels::find_box(*this, *boxes) : box_of(polygon_->vertices());
 }
 
 bool contains(const TransformedPolygon& placed, const Vector& point) {

@@ -22,7 +22,7 @@ bool CandidateEdgePairs::find_all(const simd::TransformedEdges& a, const simd::T
     constexpr std::uint32_t many_visits = 16;
     const simd::AabbTree tree_a = a.tree();
     const simd::AabbTree tree_b = b.tree();
-    simd::VisitsLeft left{1024 + many_visits * (tree_a.level(0).count + tree_b.level(0).count)};
+    simd::VisitsLeft left{1024 + many_visits * (tree_a.count(0) + tree_b.count(0))};
     simd::kernels::for_candidate_pairs(tree_a, tree_b, a.rounding + b.rounding, add, left);
     return left.count > 0;
 }

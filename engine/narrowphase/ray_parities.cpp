@@ -90,7 +90,7 @@ void RayParities::answer(const Batch& batch, bool upwards) {
     if (found_.size() < rays.count) {
         found_.resize(rays.count);
     }
-    simd::kernels::find_odd_crossings(tree_->edges(), rays, division_, found_.data());
+    simd::kernels::find_odd_crossings(tree_->all_edges(), rays, division_, found_.data());
     for (std::uint32_t i = 0; i < rays.count; ++i) {
         parities_[batch.tickets[i]] = found_[i];
     }

@@ -28,12 +28,21 @@ inline void complete(const PlacedPair& pair, simd::TransformedInstances& instanc
     instances.complete(pair.b);
 }
 
-/// Completes a pair unless both are small, if their boxes intersect: queries then need more than
-/// the boxes.
-inline void complete_if_near(const PlacedPair& pair, simd::TransformedInstances& instances) {
+inline void prepare(const PlacedPair& pair, simd::TransformedInstances& instances) {
+    instances.prepare(pair.a);
+    instances.prepare(pair.b);
+}
+
+/// Whether queries need more of a pair than its boxes and, if both are small, its edges.
+[[nodiscard]] inline bool needs_trees(const PlacedPair& pair,
+                                      const simd::TransformedInstances& instances) {
     const simd::TransformedEdges& a = instances[pair.a];
     const simd::TransformedEdges& b = instances[pair.b];
-    if (!(is_small(a) && is_small(b)) && geometry::may_meet(a, b)) {
+    return !(is_small(a) && is_small(b)) && geometry::may_meet(a, b);
+}
+
+inline void complete_if_near(const PlacedPair& pair, simd::TransformedInstances& instances) {
+    if (needs_trees(pair, instances)) {
         complete(pair, instances);
     }
 }
@@ -41,7 +50,9 @@ inline void complete_if_near(const PlacedPair& pair, simd::TransformedInstances&
 /// Whether the shapes share a point.
 [[nodiscard]] inline bool intersect(const PlacedPair& pair, simd::TransformedInstances& instances,
                                     narrowphase::OverlapTest& overlap_test) {
-    complete_if_near(pair, instances);
+    if (needs_trees(pair, instances)) {
+        prepare(pair, instances);
+    }
     return overlap_test.intersect(instances[pair.a], instances[pair.b]);
 }
 [[nodiscard]] inline bool intersect(const ShapePair& shapes, simd::TransformedInstances& instances,

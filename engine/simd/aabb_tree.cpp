@@ -11,8 +11,9 @@ std::size_t AabbTree::room(std::uint32_t lowest) {
     return room;
 }
 
-AabbTree::AabbTree(const EdgeArrays& edges, std::span<const EdgeRange> pieces, const double* boxes)
-    : edges_(edges), pieces_(pieces) {
+AabbTree::AabbTree(const EdgeArrays& edges, std::span<const EdgeRange> pieces, const double* boxes,
+                   const EdgesOnDemand* on_demand)
+    : edges_(edges), pieces_(pieces), on_demand_(on_demand) {
     std::uint32_t count =
         pieces.empty() ? boxes_over(edges.count) : static_cast<std::uint32_t>(pieces.size());
     ring_starts_ = {count, boxes, boxes + padded(count)};

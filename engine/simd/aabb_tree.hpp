@@ -2,6 +2,7 @@
 
 #include <engine/base/function_ref.hpp>
 #include <engine/simd/edge_kernels.hpp>
+#include <engine/simd/edges_on_demand.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,8 @@ struct EdgeRange {
 /// An AABB tree with fan-out eight: one box over every eight consecutive edges, one over every
 /// eight of those boxes, and so on up to a level of eight or fewer. It stores little more than the
 /// coordinates, so building it each frame takes one pass over the edges, and eight boxes are tested
-/// together.
+/// together. Where edges and boxes are placed on demand, a search calls boxes() and edges_of() for
+/// what it is going to look at.
 ///
 /// With few rings, ring boundaries are ignored: a box may hold the end of one ring and the start of
 /// the next. Many rings, which may come in any order, are cut into pieces of up to eight edges; the
@@ -49,14 +51,27 @@ public:
 
     /// A view of edges and of the boxes over them, which kernels::find_boxes() wrote after the
     /// arrays of ring_starts(): first x, then y, each padded to whole lanes. `pieces`: one per
-    /// lowest box; empty if the boxes are over every eight edges.
-    AabbTree(const EdgeArrays& edges, std::span<const EdgeRange> pieces, const double* boxes);
+    /// lowest box; empty if the boxes are over every eight edges. `on_demand`: fills the arrays of
+    /// edges and boxes, if they are not filled yet; there are no ring starts then.
+    AabbTree(const EdgeArrays& edges, std::span<const EdgeRange> pieces, const double* boxes,
+             const EdgesOnDemand* on_demand = nullptr);
 
+    /// Of which those are placed that edges_of() has returned.
     [[nodiscard]] const EdgeArrays& edges() const { return edges_; }
+    /// The same, with all of them placed.
+    [[nodiscard]] const EdgeArrays& all_edges() const {
+        if (on_demand_ != nullptr) {
+            on_demand_->place_all();
+        }
+        return edges_;
+    }
     /// True if the lowest boxes come in the order of the edges.
     [[nodiscard]] bool is_in_order() const { return pieces_.empty(); }
-    /// The edges of a lowest box; at least one.
+    /// The edges of a lowest box, placed; at least one.
     [[nodiscard]] EdgeRange edges_of(std::uint32_t box) const {
+        if (on_demand_ != nullptr) {
+            on_demand_->place_edges(box);
+        }
         if (!pieces_.empty()) {
             return pieces_[box];
         }
@@ -65,9 +80,23 @@ public:
     }
     /// Level 0, the lowest, has the boxes over edges.
     [[nodiscard]] std::uint32_t top_level() const { return top_level_; }
-    [[nodiscard]] const BoxArrays& level(std::uint32_t level) const { return levels_[level]; }
-    /// For each lowest box, the start of the ring that its first edge belongs to.
-    [[nodiscard]] const PointArrays& ring_starts() const { return ring_starts_; }
+    [[nodiscard]] std::uint32_t count(std::uint32_t level) const { return levels_[level].count; }
+    /// The boxes of a level, of which the eight from `first` on, a multiple of eight, are placed.
+    [[nodiscard]] const BoxArrays& boxes(std::uint32_t level, std::uint32_t first) const {
+        if (on_demand_ != nullptr) {
+            on_demand_->place_boxes(level, first / fan_out);
+        }
+        return levels_[level];
+    }
+    /// Null if all edges and boxes are there.
+    [[nodiscard]] const EdgesOnDemand* on_demand() const { return on_demand_; }
+    /// The start of the ring that the first edge of a lowest box belongs to: one coordinate.
+    [[nodiscard]] double ring_start(std::uint32_t box, bool is_y) const {
+        if (on_demand_ != nullptr) {
+            return (is_y ? edges_.start_y : edges_.start_x)[on_demand_->ring_begin(box)];
+        }
+        return (is_y ? ring_starts_.y : ring_starts_.x)[box];
+    }
 
 private:
     static constexpr std::size_t max_levels = 10;  // enough for more edges than 32 bits can count
@@ -75,6 +104,7 @@ private:
     EdgeArrays edges_;
     std::span<const EdgeRange> pieces_;
     PointArrays ring_starts_;
+    const EdgesOnDemand* on_demand_;
     std::array<BoxArrays, max_levels> levels_;
     std::uint32_t top_level_ = 0;
 };

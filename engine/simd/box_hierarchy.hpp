@@ -44,7 +44,7 @@ template <class Bound, class Use>
 void for_edges_near(const AabbTree& tree, std::uint32_t level, std::uint32_t first,
                     const Extent& from, const Bound& bound, const Use& use) {
     BoxKeys keys;
-    kernels::measure_boxes(tree.level(level), first, from, keys);
+    kernels::measure_boxes(tree.boxes(level, first), first, from, keys);
     for_nearest_first(keys, bound, [&](std::uint32_t i) {
         const std::uint32_t box = first + i;
         if (level > 0) {

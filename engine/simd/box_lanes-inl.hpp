@@ -43,7 +43,9 @@ HWY_INLINE LanesOfExtent boxes_at(const BoxArrays& boxes, std::size_t i) {
             hn::LoadU(tag, boxes.high_x + i), hn::LoadU(tag, boxes.high_y + i)};
 }
 
-HWY_INLINE Extent box_at(const BoxArrays& boxes, std::size_t i) {
+/// A box of a tree that a search has come to.
+HWY_INLINE Extent box_at(const AabbTree& tree, std::uint32_t level, std::uint32_t i) {
+    const BoxArrays& boxes = tree.boxes(level, i / fan_out * fan_out);
     return {boxes.low_x[i], boxes.low_y[i], boxes.high_x[i], boxes.high_y[i]};
 }
 
@@ -140,9 +142,9 @@ HWY_INLINE void for_leaves(const AabbTree& tree, const Enter& enter, const Use& 
     for_leaves_opened(
         tree,
         [&](std::uint32_t level, std::uint32_t first) HWY_ATTR {
-            return bits_of_eight([&](std::size_t i) HWY_ATTR {
-                return enter(boxes_at(tree.level(level), first + i));
-            });
+            const BoxArrays& boxes = tree.boxes(level, first);
+            return bits_of_eight([&](std::size_t i)
+                                     HWY_ATTR { return enter(boxes_at(boxes, first + i)); });
         },
         use);
 }

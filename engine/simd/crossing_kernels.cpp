@@ -24,7 +24,6 @@ public:
                             VisitsLeft& left)
         : tree_(tree),
           edges_(turned<upwards>(tree.edges())),
-          ring_starts_(upwards ? tree.ring_starts().x : tree.ring_starts().y),
           x_(upwards ? ray.y : ray.x),
           y_(upwards ? ray.x : ray.y),
           left_out_(left_out),
@@ -52,10 +51,11 @@ private:
         const Tag tag;
         const Lanes x = hn::Set(tag, x_);
         const Lanes y = hn::Set(tag, y_);
+        const BoxArrays& eight = tree_.boxes(level, first);
         std::uint32_t ahead = 0;
         std::uint32_t around = 0;
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
-            const LanesOfExtent boxes = turned<upwards>(boxes_at(tree_.level(level), first + i));
+            const LanesOfExtent boxes = turned<upwards>(boxes_at(eight, first + i));
             const LaneMask level_with = hn::And(hn::Le(boxes.low_y, y), hn::Ge(boxes.high_y, y));
             // Rounding may make a left-out edge appear to lie ahead.
             const LaneMask is_ahead = hn::Gt(boxes.low_x, hn::Set(tag, x_ + left_out_.Reach()));
@@ -80,11 +80,13 @@ private:
                                                           std::uint32_t box) const {
         constexpr auto bits = static_cast<std::uint32_t>(std::countr_zero(fan_out));
         const std::uint64_t lowest = std::uint64_t{box} << (bits * level);
-        if (lowest >= tree_.level(0).count) {
+        if (lowest >= tree_.count(0)) {
             return 0;  // every ring has closed
         }
-        const std::uint32_t edge = tree_.edges_of(static_cast<std::uint32_t>(lowest)).first;
-        return (edges_.start_y[edge] > y_) != (ring_starts_[lowest] > y_) ? 1U : 0U;
+        const auto of_edges = static_cast<std::uint32_t>(lowest);
+        const std::uint32_t edge = tree_.edges_of(of_edges).first;
+        const bool is_y = !upwards;
+        return (edges_.start_y[edge] > y_) != (tree_.ring_start(of_edges, is_y) > y_) ? 1U : 0U;
     }
 
     HWY_INLINE void CountEdges(const EdgeRange& some) {
@@ -100,7 +102,6 @@ private:
 
     const AabbTree& tree_;
     const EdgeArrays edges_;
-    const double* const ring_starts_;
     const double x_;
     const double y_;
     const LeftOut& left_out_;

@@ -144,8 +144,9 @@ std::uint32_t FindIntervalsNearTree(const EdgeArrays& edges, std::uint32_t edge,
                 return 0U;
             }
             --left.count;
+            const BoxArrays& boxes = others.boxes(level, first);
             return bits_of_eight([&](std::size_t i) HWY_ATTR {
-                return meet(boxes_at(others.level(level), first + i), search.box());
+                return meet(boxes_at(boxes, first + i), search.box());
             });
         },
         [&](std::uint32_t box) HWY_ATTR {

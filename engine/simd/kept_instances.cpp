@@ -156,7 +156,8 @@ std::size_t TransformedInstances::bytes() const {
         bytes += memory == nullptr
                      ? 0
                      : sizeof(Memory) + sizeof(Coordinates) * memory->coordinates.capacity() +
-                           sizeof(EdgeRange) * memory->pieces.capacity();
+                           sizeof(EdgeRange) * memory->pieces.capacity() +
+                           memory->on_demand.bytes();
     };
     add(&shared_);
     for (const Entry& entry : entries_) {

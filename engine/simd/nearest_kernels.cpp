@@ -253,7 +253,8 @@ public:
           near_(near),
           crowded_(crowded),
           nearest_(nearest),
-          most_visits_(std::max(few_visits, 2 * tree.edges().count / groups_of(points.count))) {}
+          most_visits_(std::max(few_visits, 2 * tree.edges().count / groups_of(points.count))),
+          last_(tree.edges_of(0).first) {}
 
     /// For consecutive points, or lists them as crowded.
     void Solve(std::uint32_t first, std::uint32_t together) {
@@ -318,7 +319,7 @@ private:
     // Of a group. It may take about as long as its share of a division of all edges: for few points
     // the tree is quicker even if it does not help much.
     std::uint32_t most_visits_;
-    std::uint32_t last_ = 0;  // the edge nearest to the previous points
+    std::uint32_t last_;  // the edge nearest to the previous points
 };
 
 void FindNearestOfByTree(const PointArrays& points, const AabbTree& tree, double margin,
@@ -332,7 +333,7 @@ void FindNearestOfByTree(const PointArrays& points, const AabbTree& tree, double
         search.Solve(i, std::min(points.count - i, max_together));
     }
     if (search.crowded_count() > 0) {
-        NearestByDivision(points, tree.edges(), margin, memory, nearest)
+        NearestByDivision(points, tree.all_edges(), margin, memory, nearest)
             .Solve(crowded, search.crowded_count());
     }
 }

@@ -63,13 +63,14 @@ public:
 private:
     void Visit(std::uint32_t level, std::uint32_t first) {
         const Tag tag;
+        const BoxArrays& boxes = tree_.boxes(level, first);
         double keys[fan_out];
         // Boxes that hold nothing have an infinite key, and a bound may be infinite.
         const Lanes most = hn::Set(tag, std::min(aim_.bound(), std::numeric_limits<double>::max()));
         std::uint32_t left = 0;
         Lanes least = hn::Set(tag, std::numeric_limits<double>::infinity());
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
-            const Lanes own = aim_.Keys(boxes_at(tree_.level(level), first + i));
+            const Lanes own = aim_.Keys(boxes_at(boxes, first + i));
             hn::StoreU(own, tag, keys + i);
             left |= bits_of(hn::Le(own, most)) << i;
             least = hn::Min(least, own);

@@ -42,7 +42,7 @@ std::size_t length_of_arrays(const Polygon& polygon) {
     return padded(polygon.size()) + (is_in_pieces(polygon) ? max_lanes : 0);
 }
 
-/// Writes AabbTree::ring_starts() for boxes over every eight edges.
+/// Writes the ring starts of an AabbTree whose boxes are over every eight edges.
 void write_ring_starts(const Polygon& polygon, const EdgeArrays& edges, double* starts) {
     const std::size_t length = padded(AabbTree::boxes_over(edges.count));
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
@@ -151,7 +151,7 @@ std::size_t TransformedInstances::grow(Entry& entry, std::size_t by) {
     return std::exchange(memory.used, end);  // last: memory may have run out
 }
 
-void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose) {
+void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose, const Box* box) {
     const Polygon& polygon = placed.polygon();
     Entry& entry = entries_.emplace_back(Entry{pose,
                                                polygon.revision(),
@@ -176,7 +176,7 @@ void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pos
         }
         entry.own = std::move(spare_.back());
         spare_.pop_back();
-        edges.box = placed.box();
+        edges.box = box != nullptr ? *box : placed.box();
     }
     write_magnitudes(pose, edges);
 }
@@ -186,7 +186,7 @@ void TransformedInstances::write_magnitudes(const Pose& pose, TransformedEdges& 
     edges.magnitude = geometry::largest_magnitude(edges.placed, pose, edges.box);
 }
 
-void TransformedInstances::place_alone(const TransformedPolygon& placed) {
+void TransformedInstances::place_alone(const TransformedPolygon& placed, const Box* box) {
     const Polygon& polygon = placed.polygon();
     // Arrays of few edges in few rings are written anew where they are, unless memory ran out.
     const bool fits = !entries_.empty() && entries_.front().first != nowhere &&
@@ -194,7 +194,7 @@ void TransformedInstances::place_alone(const TransformedPolygon& placed) {
                       entries_.front().edges.count == polygon.size() && !is_in_pieces(polygon);
     if (!fits) {
         clear();
-        add(placed, {});
+        add(placed, {}, box);
         return;
     }
     Entry& entry = entries_.front();
@@ -207,9 +207,47 @@ void TransformedInstances::place_alone(const TransformedPolygon& placed) {
     entry.is_complete = false;
 }
 
+void TransformedInstances::prepare(std::uint32_t index) {
+    Entry& entry = entries_[index];
+    if (entry.is_complete || entry.edges.on_demand != nullptr) {
+        return;
+    }
+    const Polygon& polygon = entry.edges.placed.polygon();
+    const geometry::EdgeBoxes* const boxes = is_small(entry.edges) || is_in_pieces(polygon)
+                                                 ? nullptr
+                                                 : polygon.find_boxes(geometry::BoxSearch::edges);
+    if (boxes != nullptr) {
+        place_on_demand(entry, *boxes);
+    } else {
+        complete(index);
+    }
+}
+
+void TransformedInstances::place_on_demand(Entry& entry, const geometry::EdgeBoxes& boxes) {
+    if (entry.first == nowhere) {
+        entry.first = grow(entry, room_of(entry));
+    }
+    if (entry.first_boxes == nowhere) {
+        entry.first_boxes = grow(entry, room_of_boxes(entry));
+    }
+    find_arrays(entry);
+    Memory& memory = memory_of(entry);
+    const std::uint32_t lowest = AabbTree::boxes_over(entry.edges.count);
+    memory.on_demand.begin(
+        entry.edges.placed, boxes,
+        {memory.coordinates[entry.first].values, length_of_arrays(entry.edges.placed.polygon()),
+         memory.coordinates[entry.first_boxes].values + 2 * padded(lowest)});
+    entry.edges.on_demand = &memory.on_demand;
+}
+
 void TransformedInstances::complete(std::uint32_t index) {
     Entry& entry = entries_[index];
     if (entry.is_complete) {
+        return;
+    }
+    if (entry.edges.on_demand != nullptr) {
+        entry.edges.on_demand->place_all();
+        entry.is_complete = true;
         return;
     }
     const std::uint32_t count = entry.edges.count;

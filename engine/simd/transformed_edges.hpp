@@ -16,28 +16,46 @@ namespace nearfield::simd {
 /// A polygon at a pose with all its edges transformed to the world, in one contiguous array per
 /// coordinate, so that several are processed at once. For polygons with few edges (see
 /// max_edges_one_by_one) this is faster than any tree; larger ones have boxes over their edges, and
-/// no inverse lengths.
+/// no inverse lengths. If they are only prepared (TransformedInstances::prepare), start() and end()
+/// hold for all edges, and the arrays for those that a search of the tree has found.
 struct TransformedEdges : EdgeArrays {
     geometry::TransformedPolygon placed;
     geometry::Box box;
-    double rounding = 0.0;                   ///< of the vertices: geometry::placement_rounding
-    double magnitude = 0.0;                  ///< geometry::largest_magnitude
-    std::span<const EdgeRange> pieces = {};  ///< of an AabbTree
-    const double* boxes = nullptr;           ///< of the tree; null until they are built
+    double rounding = 0.0;                     ///< of the vertices: geometry::placement_rounding
+    double magnitude = 0.0;                    ///< geometry::largest_magnitude
+    std::span<const EdgeRange> pieces = {};    ///< of an AabbTree
+    const double* boxes = nullptr;             ///< of the tree; null until they are built
+    const EdgesOnDemand* on_demand = nullptr;  ///< fills the arrays, unless they are
 
     /// Precondition: it has boxes.
-    [[nodiscard]] AabbTree tree() const { return {*this, pieces, boxes}; }
+    [[nodiscard]] AabbTree tree() const { return {*this, pieces, boxes, on_demand}; }
 
     [[nodiscard]] geometry::Vector start(std::uint32_t edge) const {
+        place(edge);
         return {start_x[edge], start_y[edge]};
     }
     [[nodiscard]] geometry::Vector end(std::uint32_t edge) const {
+        place(edge);
         return {end_x[edge], end_y[edge]};
+    }
+    /// All start points.
+    [[nodiscard]] PointArrays all_starts() const {
+        if (on_demand != nullptr) {
+            on_demand->place_all();
+        }
+        return starts();
     }
     /// The point at `parameter` < 1 along an edge, bit for bit equal to queries::position().
     [[nodiscard]] geometry::Vector at(std::uint32_t edge, double parameter) const {
         const geometry::Vector from = start(edge);
         return from + parameter * (end(edge) - from);
+    }
+
+private:
+    void place(std::uint32_t edge) const {
+        if (on_demand != nullptr) {
+            on_demand->place_edges(edge / AabbTree::fan_out);
+        }
     }
 };
 
@@ -71,16 +89,20 @@ public:
     /// far still exist.
     void begin_batch();
     /// Returns the index of an instance, and transforms it if it is new. If it has many edges, only
-    /// its box, rounding and magnitude are known until complete().
+    /// its box, rounding and magnitude are known until prepare() or complete().
     [[nodiscard]] std::uint32_t place(const geometry::Polygon& polygon, const Pose& pose);
     /// Makes an instance the only one, with index 0: of many poses of a shape, one after the other,
-    /// or of many shapes. No place() is to follow.
-    void place_alone(const geometry::TransformedPolygon& placed);
-    /// Transforms all edges and builds the boxes over them.
+    /// or of many shapes. No place() is to follow. `box`: its bounding box, if that is known.
+    void place_alone(const geometry::TransformedPolygon& placed,
+                     const geometry::Box* box = nullptr);
+    /// Makes it ready to be searched: transforms all edges and builds the boxes over them, or,
+    /// where the polygon has boxes of its own, what a search comes to.
+    void prepare(std::uint32_t index);
+    /// The same, with all edges transformed.
     void complete(std::uint32_t index);
     /// Host memory, in bytes.
     [[nodiscard]] std::size_t bytes() const;
-    /// Valid until the next place() or complete().
+    /// Valid until the next place(), prepare() or complete().
     [[nodiscard]] const TransformedEdges& operator[](std::uint32_t index) const {
         return entries_[index].edges;
     }
@@ -97,6 +119,7 @@ private:
         std::vector<Coordinates> coordinates;  // the first `used` are in use
         std::size_t used = 0;
         std::vector<EdgeRange> pieces;
+        EdgesOnDemand on_demand;
 
         void clear();
     };
@@ -120,7 +143,8 @@ private:
     [[nodiscard]] bool is_at(std::uint32_t index, const geometry::Polygon& polygon,
                              const Pose& pose) const;
     [[nodiscard]] std::uint32_t find_or_add(const geometry::Polygon& polygon, const Pose& pose);
-    void add(const geometry::TransformedPolygon& placed, const Pose& pose);
+    void add(const geometry::TransformedPolygon& placed, const Pose& pose,
+             const geometry::Box* box = nullptr);
     /// The number of vectors that the arrays of an entry take, and its boxes, once it has pieces.
     [[nodiscard]] static std::size_t room_of(const Entry& entry);
     [[nodiscard]] static std::size_t room_of_boxes(const Entry& entry);
@@ -129,6 +153,8 @@ private:
     [[nodiscard]] bool keeps_small_ones();
     /// Cuts the rings of an entry into pieces, in this order; returns their number.
     [[nodiscard]] std::uint32_t cut_into_pieces(Entry& entry, std::span<const std::uint32_t> rings);
+    /// Has the edges and boxes of an entry placed as they are needed.
+    void place_on_demand(Entry& entry, const geometry::EdgeBoxes& boxes);
     /// Writes the arrays of an entry, whose space is allocated; returns its bounding box.
     [[nodiscard]] geometry::Box write_arrays(Entry& entry);
     static void write_magnitudes(const Pose& pose, TransformedEdges& edges);

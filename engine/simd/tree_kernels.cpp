@@ -78,16 +78,16 @@ void FindBoxesOver(const BoxArrays& below, double* boxes, std::size_t length) {
 
 void FindBoxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, double* boxes) {
     const AabbTree tree(edges, pieces, boxes);
-    boxes += 2 * padded(tree.ring_starts().count);
+    boxes += 2 * padded(tree.count(0));
     for (std::uint32_t level = 0; level <= tree.top_level(); ++level) {
-        const std::uint32_t count = tree.level(level).count;
+        const std::uint32_t count = tree.count(level);
         const std::size_t length = padded(count);
         if (level == 0 && tree.is_in_order()) {
             FindEdgeBoxes(edges, boxes, length);
         } else if (level == 0) {
             FindPieceBoxes(edges, pieces, boxes, length);
         } else {
-            FindBoxesOver(tree.level(level - 1), boxes, length);
+            FindBoxesOver(tree.boxes(level - 1, 0), boxes, length);
         }
         for (std::size_t i = count; i < length; ++i) {
             boxes[i] = boxes[length + i] = std::numeric_limits<double>::infinity();
@@ -122,9 +122,9 @@ std::uint32_t FindEdgesWithinByTree(const AabbTree& tree, double point_x, double
                 return 0U;
             }
             --left.count;
+            const BoxArrays& boxes = tree.boxes(level, first);
             return bits_of_eight([&](std::size_t i) HWY_ATTR {
-                return hn::Le(squared_between(boxes_at(tree.level(level), first + i), point),
-                              limit);
+                return hn::Le(squared_between(boxes_at(boxes, first + i), point), limit);
             });
         },
         [&](std::uint32_t box) HWY_ATTR {
@@ -187,7 +187,7 @@ std::uint32_t FindEdgesNear(const AabbTree& tree, const Extent& box, const AabbT
         tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
         [&](std::uint32_t of_edges) HWY_ATTR {
             checkpoint.step();
-            if (Meets(others, grown(box_at(tree.level(0), of_edges), reach))) {
+            if (Meets(others, grown(box_at(tree, 0, of_edges), reach))) {
                 count = append_edges_in(tree, of_edges, bounds, found, count);
             }
             return true;
@@ -209,11 +209,12 @@ public:
         --left_.count;
         const Tag tag;
         const LanesOfExtent point = lanes_of(point_);
+        const BoxArrays& boxes = tree_.boxes(level, first);
         double squared[fan_out];
         std::uint32_t bits = 0;
         Lanes least = hn::Set(tag, std::numeric_limits<double>::infinity());
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
-            const Lanes distances = squared_between(boxes_at(tree_.level(level), first + i), point);
+            const Lanes distances = squared_between(boxes_at(boxes, first + i), point);
             hn::StoreU(distances, tag, squared + i);
             bits |= bits_of(hn::Lt(distances, hn::Set(tag, best_.squared))) << i;
             least = hn::Min(least, distances);

@@ -9,13 +9,42 @@
 // clang-format off
 #include <hwy/foreach_target.h>
 #include <engine/simd/box_lanes-inl.hpp>
+#include <engine/simd/oriented_lanes-inl.hpp>
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace nearfield::simd::kernels::HWY_NAMESPACE {
 
+/// A box of a tree, oriented if there are such boxes, in every lane.
+HWY_INLINE OrientedLanes oriented_box(const AabbTree& tree, std::uint32_t level,
+                                      std::uint32_t box) {
+    const Tag tag;
+    if (const EdgesOnDemand* const own = tree.on_demand(); own != nullptr) {
+        const geometry::EdgeBoxes::Group& group = own->group(level, box / fan_out);
+        const geometry::Placement placement = own->placement();
+        const std::uint32_t i = box % fan_out;
+        const auto turned = [&](std::size_t axis, double x, double y) {
+            return placement.x_axis[axis] * x + placement.y_axis[axis] * y;
+        };
+        return {hn::Set(tag, turned(0, group.x[i], group.y[i]) + placement.translation[0]),
+                hn::Set(tag, turned(1, group.x[i], group.y[i]) + placement.translation[1]),
+                hn::Set(tag, turned(0, group.along_x[i], group.along_y[i])),
+                hn::Set(tag, turned(1, group.along_x[i], group.along_y[i])),
+                hn::Set(tag, group.half_along[i]),
+                hn::Set(tag, group.half_across[i] + own->allowance())};
+    }
+    const Extent extent = box_at(tree, level, box);
+    return {hn::Set(tag, 0.5 * (extent.low_x + extent.high_x)),
+            hn::Set(tag, 0.5 * (extent.low_y + extent.high_y)),
+            hn::Set(tag, 1.0),
+            hn::Zero(tag),
+            hn::Set(tag, 0.5 * (extent.high_x - extent.low_x)),
+            hn::Set(tag, 0.5 * (extent.high_y - extent.low_y))};
+}
+
 /// Traverses two trees together, down to pairs of lowest boxes. `Leaves` prunes and handles the
 /// pairs:
+///   bool by_oriented_boxes          whether oriented boxes are compared, too
 ///   Lanes squared_bound()           pairs farther apart than its root are pruned
 ///   bool Use(box_a, box_b)          a pair of lowest boxes; returns whether to go on
 template <class Leaves>
@@ -26,7 +55,7 @@ public:
 
     bool Run() {
         const std::uint32_t top = a_.top_level();
-        for (std::uint32_t i = 0; i < a_.level(top).count; ++i) {
+        for (std::uint32_t i = 0; i < a_.count(top); ++i) {
             if (!OpenB(top, i, b_.top_level(), 0)) {
                 return false;
             }
@@ -38,29 +67,37 @@ private:
     /// Tests boxes of A from `first` on against one box of B.
     bool OpenA(std::uint32_t level_a, std::uint32_t first, std::uint32_t level_b,
                std::uint32_t box_b) {
-        return Open(a_.level(level_a), first, box_at(b_.level(level_b), box_b),
-                    [&](std::uint32_t box_a)
-                        HWY_ATTR { return Visit(level_a, box_a, level_b, box_b); });
+        return Open(a_, level_a, first, b_, level_b, box_b, [&](std::uint32_t box_a) HWY_ATTR {
+            return Visit(level_a, box_a, level_b, box_b);
+        });
     }
 
     bool OpenB(std::uint32_t level_a, std::uint32_t box_a, std::uint32_t level_b,
                std::uint32_t first) {
-        return Open(b_.level(level_b), first, box_at(a_.level(level_a), box_a),
-                    [&](std::uint32_t box_b)
-                        HWY_ATTR { return Visit(level_a, box_a, level_b, box_b); });
+        return Open(b_, level_b, first, a_, level_a, box_a, [&](std::uint32_t box_b) HWY_ATTR {
+            return Visit(level_a, box_a, level_b, box_b);
+        });
     }
 
     template <class Use>
-    HWY_INLINE bool Open(const BoxArrays& boxes, std::uint32_t first, const Extent& other,
-                         const Use& use) {
+    HWY_INLINE bool Open(const AabbTree& tree, std::uint32_t level, std::uint32_t first,
+                         const AabbTree& other, std::uint32_t level_of_other,
+                         std::uint32_t box_of_other, const Use& use) {
         const Tag tag;
-        const LanesOfExtent bounds = lanes_of(other);
+        const BoxArrays& boxes = tree.boxes(level, first);
+        const LanesOfExtent bounds = lanes_of(box_at(other, level_of_other, box_of_other));
         double squared[fan_out];
         std::uint32_t bits = 0;
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
             const Lanes distances = squared_between(boxes_at(boxes, first + i), bounds);
             hn::StoreU(distances, tag, squared + i);
             bits |= bits_of(hn::Le(distances, hn::Set(tag, leaves_.squared_bound()))) << i;
+        }
+        if constexpr (Leaves::by_oriented_boxes) {
+            if (bits != 0 && tree.on_demand() != nullptr) {
+                Narrow(*tree.on_demand(), level, first,
+                       oriented_box(other, level_of_other, box_of_other), squared);
+            }
         }
         for (; bits != 0; bits &= bits - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
@@ -69,6 +106,21 @@ private:
             }
         }
         return true;
+    }
+
+    /// Raises the squared distances of eight boxes from another.
+    static HWY_INLINE void Narrow(const EdgesOnDemand& edges, std::uint32_t level,
+                                  std::uint32_t first, const OrientedLanes& other,
+                                  double* squared) {
+        const Tag tag;
+        const geometry::EdgeBoxes::Group& group = edges.group(level, first / fan_out);
+        const geometry::Placement placement = edges.placement();
+        const Lanes allowance = hn::Set(tag, edges.allowance());
+        for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
+            const Lanes gaps = gaps_between(oriented_at(group, i, placement), other);
+            const Lanes sure = hn::Max(hn::Sub(gaps, allowance), hn::Zero(tag));
+            hn::StoreU(hn::Max(hn::LoadU(tag, squared + i), hn::Mul(sure, sure)), tag, squared + i);
+        }
     }
 
     bool Visit(std::uint32_t level_a, std::uint32_t box_a, std::uint32_t level_b,
@@ -94,6 +146,8 @@ private:
 
 class IntersectingLeaves {
 public:
+    static constexpr bool by_oriented_boxes = false;
+
     HWY_INLINE IntersectingLeaves(const AabbTree& a, const AabbTree& b, double margin,
                                   const EdgePairSink& sink)
         : a_(a), b_(b), margin_(margin), sink_(sink) {}
@@ -106,7 +160,7 @@ public:
         const EdgeArrays& b = b_.edges();
         const EdgeRange of_a = a_.edges_of(box_a);
         const EdgeRange of_b = b_.edges_of(box_b);
-        const LanesOfExtent box = lanes_of(grown(box_at(b_.level(0), box_b), 2.0 * margin_));
+        const LanesOfExtent box = lanes_of(grown(box_at(b_, 0, box_b), 2.0 * margin_));
         std::uint32_t near = bits_of_eight(
             [&](std::size_t i) HWY_ATTR { return meet(box, EdgeLanes(a, of_a.first + i)); });
         for (near &= bits_of_range(of_a); near != 0; near &= near - 1) {
@@ -147,6 +201,8 @@ bool ForCandidatePairs(const AabbTree& first, const AabbTree& second, double mar
 template <class Bound>
 class NearLeaves {
 public:
+    static constexpr bool by_oriented_boxes = true;
+
     HWY_INLINE NearLeaves(const AabbTree& a, const AabbTree& b, Bound& bound,
                           const VertexAndEdgeSink& sink)
         : a_(a), b_(b), bound_(bound), sink_(sink) {}
@@ -166,7 +222,7 @@ private:
         const EdgeArrays& edges = of_edges.edges();
         const EdgeRange some_vertices = of_vertices.edges_of(box_of_vertices);
         const EdgeRange some_edges = of_edges.edges_of(box_of_edges);
-        const LanesOfExtent box = lanes_of(box_at(of_edges.level(0), box_of_edges));
+        const LanesOfExtent box = lanes_of(box_at(of_edges, 0, box_of_edges));
         std::uint32_t near = bits_of_eight([&](std::size_t i) HWY_ATTR {
             const Lanes x = hn::LoadU(tag, vertices.start_x + some_vertices.first + i);
             const Lanes y = hn::LoadU(tag, vertices.start_y + some_vertices.first + i);

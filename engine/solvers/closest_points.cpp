@@ -47,7 +47,7 @@ void ClosestSolver::answer(const CheckedQuery& query, Workspace& workspace,
         result.status = std::move(status);
         return;
     }
-    complete(pair, instances);
+    prepare(pair, instances);
     answer(query, a, b, {overlap_test_.intersect(a, b), infinity}, result);
 }
 

@@ -26,8 +26,12 @@ void PenetrationSolver::answer(const queries::CheckedQuery& query, Workspace& wo
         result.status = std::move(status);
         return;
     }
-    complete_if_near(pair, instances);
     const auto& asked = std::get<PenetrationQuery>(*query.query);
+    if (asked.points == PenetrationPoints::boundary) {
+        complete_if_near(pair, instances);
+    } else if (needs_trees(pair, instances)) {
+        prepare(pair, instances);
+    }
     queries::QueryMemory memory = workspace.memory_of(query, result.tolerance);
     require_room(query, a, b, memory);
     answer(asked, query, a, b, result);
@@ -80,7 +84,9 @@ void PenetrationSolver::answer(const PenetrationQuery& query, const queries::Sha
     if (are_near && is_sampled) {
         samples_.find(a, b, reversed && before.is_sampled, result.cell, inside_, take);
     } else if (are_near) {
-        find_vertices_inside(a.starts(), b);
+        const double touching = query.tolerance * shaders::touching_depth;
+        result.count += find_vertices_inside(a, b, query.summary_only, touching);
+        any_inside = result.count > 0;
     }
     take();
     // A ring of A inside B yields at least one point: it has a vertex that is a sample.
@@ -89,8 +95,17 @@ void PenetrationSolver::answer(const PenetrationQuery& query, const queries::Sha
     before_ = {shapes, result.intersects, is_sampled};
 }
 
-void PenetrationSolver::find_vertices_inside(const simd::PointArrays& vertices,
-                                             const simd::TransformedEdges& b) {
+std::uint32_t PenetrationSolver::find_vertices_inside(const TransformedEdges& a,
+                                                      const TransformedEdges& b, bool summary_only,
+                                                      double touching) {
+    if (summary_only && a.on_demand != nullptr && !is_small(b)) {
+        vertices_.find(a, b, touching, inside_);
+        boundary_.set(b);
+        inside_.resize(
+            boundary_.keep_inside(static_cast<std::uint32_t>(inside_.size()), inside_.found()));
+        return vertices_.left_out();
+    }
+    const simd::PointArrays vertices = a.all_starts();
     inside_.reserve(vertices.count);
     const simd::Extent box = geometry::extent_of(b.box);
     const simd::FoundPoints found = inside_.found();
@@ -101,6 +116,7 @@ void PenetrationSolver::find_vertices_inside(const simd::PointArrays& vertices,
         inside_.resize(
             boundary_.keep_inside(simd::kernels::find_points_in(vertices, box, found), found));
     }
+    return 0;
 }
 
 void PenetrationSolver::add_deepest(double tolerance, const simd::TransformedEdges& b,

@@ -4,6 +4,7 @@
 #include <engine/narrowphase/deepest_point.hpp>
 #include <engine/narrowphase/nearest_points.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
+#include <engine/narrowphase/vertices_inside.hpp>
 #include <engine/queries/placed_pair.hpp>
 #include <engine/simd/point_list.hpp>
 #include <engine/simd/transformed_edges.hpp>
@@ -29,7 +30,7 @@ public:
                 PenetrationResult& result);
 
     /// The same for shapes in their places, `a` and `b`, which permit the tolerance and, unless
-    /// both are small, are complete if their boxes intersect.
+    /// both are small, are ready if their boxes intersect: prepared for vertices, else complete.
     void answer(const PenetrationQuery& query, const queries::ShapePair& shapes,
                 const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                 PenetrationResult& result);
@@ -47,8 +48,11 @@ private:
     /// for.
     void require_room(const queries::CheckedQuery& query, const simd::TransformedEdges& a,
                       const simd::TransformedEdges& b, queries::QueryMemory& memory);
-    /// Finds the vertices of A inside B.
-    void find_vertices_inside(const simd::PointArrays& vertices, const simd::TransformedEdges& b);
+    /// Finds the vertices of A inside B, or those that may be the deepest, and returns how many
+    /// others are deeper than `touching`.
+    [[nodiscard]] std::uint32_t find_vertices_inside(const simd::TransformedEdges& a,
+                                                     const simd::TransformedEdges& b,
+                                                     bool summary_only, double touching);
     /// A point of A and its way out of B.
     struct WayOut {
         geometry::Vector point;
@@ -71,7 +75,8 @@ private:
 
     narrowphase::Boundary boundary_;  // of B, if it has many edges
     narrowphase::OverlapTest overlap_test_;
-    InsideSamples samples_;               // of A
+    InsideSamples samples_;  // of A
+    narrowphase::VerticesInside vertices_;
     simd::PointList inside_;              // points of A, some of them
     narrowphase::NearestPoints nearest_;  // to them
     narrowphase::DeepestPointFinder deepest_;

@@ -74,8 +74,8 @@ void ConservativeAdvancement::place(double time, Impact& contact) {
     instances_.clear();
     index_a_ = instances_.place(a_->polygon(), pose_a);
     index_b_ = instances_.place(b_->polygon(), pose_b);
-    instances_.complete(index_a_);
-    instances_.complete(index_b_);
+    instances_.prepare(index_a_);
+    instances_.prepare(index_b_);
     state_a_ = MotionState(*a_, pose_a);
     state_b_ = MotionState(*b_, pose_b);
     motion_ = RelativeMotion(*a_, state_a_, *b_, state_b_);

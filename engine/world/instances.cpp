@@ -159,8 +159,9 @@ void Instances::make_edges(std::uint32_t index) const {
     if (kept.has_edges.load(std::memory_order_relaxed)) {
         return;
     }
-    kept.edges.place_alone(TransformedPolygon(*kept.polygon, entries_[index].instance.pose));
-    kept.edges.complete(0);
+    kept.edges.place_alone(TransformedPolygon(*kept.polygon, entries_[index].instance.pose),
+                           &bounds_[index].box);
+    kept.edges.prepare(0);
     kept.tree.emplace(kept.edges[0].tree());
     kept.has_edges.store(true, std::memory_order_release);
 }

@@ -121,7 +121,7 @@ public:
     [[nodiscard]] const geometry::Polygon* find_polygon(std::uint32_t index) const {
         return kept_[index]->polygon;
     }
-    /// Its complete edges, in world coordinates.
+    /// Its edges in world coordinates, prepared.
     [[nodiscard]] const simd::TransformedEdges& edges(std::uint32_t index) const {
         return with_edges(index).edges[0];
     }

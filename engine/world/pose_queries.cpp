@@ -38,13 +38,13 @@ void PoseQueries::begin(const Instances& instances, const geometry::Polygon& sha
     guess_ = {};
 }
 
-const simd::TransformedEdges& PoseQueries::complete_edges() {
-    shape_edges_.complete(0);
+const simd::TransformedEdges& PoseQueries::prepared_edges() {
+    shape_edges_.prepare(0);
     return edges();
 }
 
 const simd::TransformedEdges& PoseQueries::searched_edges() {
-    return edges().count <= simd::max_few_edges ? edges() : complete_edges();
+    return edges().count <= simd::max_few_edges ? edges() : prepared_edges();
 }
 
 void PoseQueries::find_candidates(const TransformedPolygon& placed) {
@@ -67,7 +67,7 @@ bool PoseQueries::intersects(std::uint32_t index) {
     }
     const simd::TransformedEdges& other = instances_->edges(index);
     return overlap_test_.intersect(
-        is_small(edges()) && is_small(other) ? edges() : complete_edges(), other);
+        is_small(edges()) && is_small(other) ? edges() : prepared_edges(), other);
 }
 
 bool PoseQueries::intersects(const TransformedPolygon& placed) {
@@ -137,13 +137,13 @@ void PoseQueries::write_depth(std::uint32_t index) {
     const bool is_guess = index == guess_.instance;
     std::optional<simd::AabbTree> own_tree;
     if (edges().count > simd::max_few_edges) {
-        own_tree = complete_edges().tree();
+        own_tree = prepared_edges().tree();
     }
     const auto of_shape = deepest_vertex_.find({edges(), own_tree ? &*own_tree : nullptr}, others,
                                                is_guess ? guess_.deep : VertexGuess());
     std::optional<DeepVertex> of_other;
     if (!of_shape || !is_around(*of_shape, edges().box, edges().rounding + others.edges.rounding)) {
-        own_tree = complete_edges().tree();
+        own_tree = prepared_edges().tree();
         const VertexGuess guess{is_guess ? guess_.edge : BoxHierarchy::nowhere};
         of_other = deepest_vertex_.find(others, {edges(), &*own_tree}, guess);
     }
@@ -190,7 +190,7 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
     const narrowphase::ClosestPair pair =
         edges().count <= simd::max_few_edges
             ? closest_pair_.find_of_few(edges(), other, instances_->tree(index), at_most, direction)
-            : closest_pair_.find(complete_edges(), other, at_most, 0.0);
+            : closest_pair_.find(prepared_edges(), other, at_most, 0.0);
     const double distance = std::sqrt(pair.squared_distance);
     if (distance > max_clearance || !replaces(distance, index)) {
         return;

@@ -56,8 +56,8 @@ private:
 
     /// The shape's edges at the pose, with or without the boxes over them.
     [[nodiscard]] const simd::TransformedEdges& edges() const { return shape_edges_[0]; }
-    [[nodiscard]] const simd::TransformedEdges& complete_edges();
-    /// The shape's edges, complete unless they are few enough to do without.
+    [[nodiscard]] const simd::TransformedEdges& prepared_edges();
+    /// The shape's edges, prepared unless they are few enough to do without.
     [[nodiscard]] const simd::TransformedEdges& searched_edges();
     /// Lists the instances that the shape may intersect, in any order.
     void find_candidates(const geometry::TransformedPolygon& placed);

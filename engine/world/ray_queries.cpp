@@ -18,8 +18,8 @@ constexpr std::size_t slots = simd::PathLists::max_paths;
 constexpr std::uint32_t fan_out = simd::AabbTree::fan_out;
 constexpr std::uint32_t max_groups = simd::PathStep::max_groups;
 
-std::uint32_t groups_of(const simd::BoxArrays& boxes) {
-    return simd::AabbTree::boxes_over(boxes.count);
+std::uint32_t groups_of(std::uint32_t boxes) {
+    return simd::AabbTree::boxes_over(boxes);
 }
 
 void test_boxes(simd::PathStep& step, const double* low_x, std::size_t stride) {
@@ -106,8 +106,8 @@ inline bool RayQueries::enter(Search& search, simd::PathStep& step, std::uint32_
             test_edges(step, *search.edges, search.tree->edges_of(box));
             return true;
         }
-        const simd::BoxArrays& below = search.tree->level(--search.level);
         search.first = fan_out * box;
+        const simd::BoxArrays& below = search.tree->boxes(--search.level, search.first);
         test_boxes(step, below.low_x + search.first, simd::padded(below.count));
         return true;
     }
@@ -125,12 +125,15 @@ inline bool RayQueries::enter(Search& search, simd::PathStep& step, std::uint32_
     // Several groups of boxes at once save the levels above them.
     search.level = search.tree->top_level();
     std::uint32_t groups = 1;
-    while (search.level > 0 && groups_of(search.tree->level(search.level - 1)) <= max_groups) {
-        groups = groups_of(search.tree->level(--search.level));
+    while (search.level > 0 && groups_of(search.tree->count(search.level - 1)) <= max_groups) {
+        groups = groups_of(search.tree->count(--search.level));
     }
     search.first = 0;
     step.margin = search.edges->rounding + search.rounding;
-    const simd::BoxArrays& top = search.tree->level(search.level);
+    const simd::BoxArrays& top = search.tree->boxes(search.level, 0);
+    for (std::uint32_t group = 1; group < groups; ++group) {
+        static_cast<void>(search.tree->boxes(search.level, fan_out * group));
+    }
     test_boxes(step, top.low_x, simd::padded(top.count));
     step.groups = groups;
     step.group_stride = fan_out;

@@ -97,7 +97,7 @@ ShapeEdgeHit ShapeEdgeQueries::hit_of(const Found& found) const {
 void ShapeEdgeQueries::find(const geometry::TransformedPolygon& placed, double max_distance,
                             std::span<ShapeEdgeHit> hits) {
     shape_edges_.place_alone(placed);
-    shape_edges_.complete(0);
+    shape_edges_.prepare(0);
     nearest_.begin(hits.size(), max_distance);
     const double rounding = shape().rounding + instances_->max_rounding();
     instances_->boxes().for_near(

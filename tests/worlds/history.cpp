@@ -18,6 +18,17 @@ int any_size(Random& random) {
     return random.whole(0, 3) == 0 ? random.whole(260, 500) : random.whole(3, 30);
 }
 
+/// Rings of many vertices in which eight edges that follow each other are small.
+Rings smooth(Random& random) {
+    Rings rings = random.whole(0, 1) == 0 ? coast(random, random.whole(260, 2600), 0.3)
+                                          : regular(random.whole(260, 3000));
+    if (random.whole(0, 2) == 0) {
+        const Rings hole = random.whole(0, 1) == 0 ? regular(random.whole(3, 400)) : rings;
+        rings.push_back(scaled_and_moved(hole, 0.6, {}).front());
+    }
+    return rings;
+}
+
 }  // namespace
 
 History::History(std::uint64_t seed, std::function<QuestionList()> questions,
@@ -29,7 +40,9 @@ History::History(std::uint64_t seed, std::function<QuestionList()> questions,
     context_.emplace(make_context(settings));
     world_.emplace(std::move(*World::create(*context_)));
     asked_ = on_grid_ ? rectangle({0.0, 0.0}, {1.0, 1.0})
-                      : scaled_and_moved(star(random_, any_size(random_), 0.4), 0.5, {});
+             : random_.whole(0, 2) == 0
+                 ? scaled_and_moved(smooth(random_), 0.5, {})
+                 : scaled_and_moved(star(random_, any_size(random_), 0.4), 0.5, {});
     asked_shape_ = *context_->add_shape(asked_);
     for (int i = random_.whole(1, 4); i > 0; --i) {
         add_shape();
@@ -48,7 +61,7 @@ Rings History::any_rings() {
         return rectangle({0.0, 0.0}, {static_cast<double>(random_.whole(1, 3)),
                                       static_cast<double>(random_.whole(1, 2))});
     }
-    switch (random_.whole(0, 6)) {
+    switch (random_.whole(0, 7)) {
         case 0:
             return scaled_and_moved(with_holes(random_, random_.whole(1, 6)), 0.8, {});
         case 1:
@@ -59,6 +72,8 @@ Rings History::any_rings() {
             return star(random_, random_.whole(260, 700), 0.5);  // too many for brute force
         case 4:
             return with_repeated_vertices(random_, star(random_, 12, 0.4), 0.4);
+        case 5:
+            return smooth(random_);
         default:
             return scaled_and_moved(star(random_, random_.whole(3, 40), 0.3),
                                     random_.scale(0.05, 1.5), {});

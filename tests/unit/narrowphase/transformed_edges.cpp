@@ -31,13 +31,73 @@ TEST(TransformedEdges, HaveSmallBoxesWhateverTheOrderOfRings) {
     const std::uint32_t index = instances.place(polygon, {});
     instances.complete(index);
     const simd::AabbTree tree = instances[index].tree();
-    const simd::BoxArrays& boxes = tree.level(1);
+    const simd::BoxArrays& boxes = tree.boxes(1, 0);
     ASSERT_EQ(boxes.count, side * side / simd::AabbTree::fan_out);
     double area = 0.0;
     for (std::uint32_t i = 0; i < boxes.count; ++i) {
         area += (boxes.high_x[i] - boxes.low_x[i]) * (boxes.high_y[i] - boxes.low_y[i]);
     }
     EXPECT_LT(area, 3.0 * side * side);
+}
+
+/// Rings of many vertices in one or several parts, some closed by an edge that begins or ends a run
+/// of eight.
+std::vector<test::Rings> large_shapes() {
+    test::Random random(17);
+    std::vector<test::Rings> shapes{test::regular(2048), test::coast(random, 2049, 0.3),
+                                    test::coast(random, 5000, 0.2)};
+    test::Rings parts = test::coast(random, 3001, 0.2);
+    for (int i = 1; i < 9; ++i) {
+        parts.push_back(test::scaled_and_moved(test::regular(5 * i), 0.05, {0.1 * i, 0.0}).front());
+    }
+    shapes.push_back(parts);
+    const std::size_t count = shapes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        shapes.push_back(test::scaled_and_moved(shapes[i], 1.0, {3e5, -1e6}));
+    }
+    return shapes;
+}
+
+/// A polygon that has been asked for twice has boxes of its own; what is found by them at any pose
+/// is what is found without them.
+TEST(TransformedEdges, AreTheSameByBoxesOfTheShape) {
+    test::Random random(18);
+    for (const test::Rings& rings : large_shapes()) {
+        const Polygon polygon = samples::polygon(rings);
+        ASSERT_EQ(polygon.find_boxes(geometry::BoxSearch::edges), nullptr);
+        ASSERT_NE(polygon.find_boxes(geometry::BoxSearch::edges), nullptr);
+        for (int i = 0; i < 50; ++i) {
+            const Pose pose{{random.between(-9.0, 9.0), random.scale(1.0, 1e6)},
+                            i < 5 ? 0.5 * 3.141592653589793 * i : random.between(-4.0, 4.0)};
+            const geometry::TransformedPolygon placed(polygon, pose);
+            const Polygon fresh = polygon;
+            simd::TransformedInstances all;
+            all.place_alone(geometry::TransformedPolygon(fresh, pose));
+            all.complete(0);
+            ASSERT_EQ(placed.box().min(), all[0].box.min());
+            ASSERT_EQ(placed.box().max(), all[0].box.max());
+            simd::TransformedInstances searched;
+            searched.place_alone(placed);
+            searched.prepare(0);
+            ASSERT_NE(searched[0].on_demand, nullptr);
+            const double x = pose.translation.x + random.between(-1.0, 1.0);
+            const double y = pose.translation.y + random.between(-1.0, 1.0);
+            const simd::Extent box{x, y, x + 0.1, y + 0.1};
+            std::vector<std::uint32_t> found(simd::padded(polygon.size()));
+            std::vector<std::uint32_t> expected(found.size());
+            found.resize(simd::kernels::find_edges_in(searched[0].tree(), box, found.data()));
+            expected.resize(simd::kernels::find_edges_in(all[0].tree(), box, expected.data()));
+            ASSERT_EQ(found, expected);
+            ASSERT_EQ(simd::kernels::contain(searched[0].tree(), x, y),
+                      simd::kernels::contain(all[0].tree(), x, y));
+            ASSERT_EQ(simd::find_nearest(searched[0], {x, y}).squared,
+                      simd::find_nearest(all[0], {x, y}).squared);
+            for (std::uint32_t edge = 0; edge < polygon.size(); ++edge) {
+                ASSERT_EQ(searched[0].start(edge), all[0].start(edge));
+                ASSERT_EQ(searched[0].end(edge), all[0].end(edge));
+            }
+        }
+    }
 }
 
 /// Any sequence of batches in which shapes, poses or neither change: what is kept is what would be

@@ -1,0 +1,119 @@
+#include <engine/geometry/edge_boxes.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+// Highway compiles the rest once per instruction set by including this file again.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/geometry/edge_box_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace nearfield::geometry::kernels::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::uint32_t fan_out = EdgeBoxes::fan_out;
+using Tag = hn::CappedTag<double, fan_out>;
+using Lanes = hn::Vec<Tag>;
+
+/// The largest of one coordinate of a polygon's transformed vertices, or of its opposite.
+class Farthest {
+public:
+    HWY_INLINE Farthest(const TransformedPolygon& placed, const EdgeBoxes& boxes, int axis,
+                        double sign)
+        : vertices_(placed.polygon().vertices().data()->data()),
+          count_(placed.polygon().size()),
+          boxes_(boxes),
+          x_(placed.rotation()(axis, 0)),
+          y_(placed.rotation()(axis, 1)),
+          translation_(placed.translation()[axis]),
+          sign_(sign),
+          to_box_(sign * translation_ + box_allowance(placed)) {}
+
+    HWY_INLINE double Find() {
+        Visit(boxes_.top_level(), 0);
+        return farthest_;
+    }
+
+private:
+    void Visit(std::uint32_t level, std::uint32_t number) {
+        const Tag tag;
+        const EdgeBoxes::Group& group = boxes_.group(level, number);
+        const Lanes to_x = hn::Set(tag, sign_ * x_);
+        const Lanes to_y = hn::Set(tag, sign_ * y_);
+        HWY_ALIGN double reach[fan_out];
+        for (std::uint32_t i = 0; i < fan_out; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
+            const Lanes along_x = hn::Load(tag, group.along_x + i);
+            const Lanes along_y = hn::Load(tag, group.along_y + i);
+            const Lanes centre = hn::Add(hn::Mul(to_x, hn::Load(tag, group.x + i)),
+                                         hn::Mul(to_y, hn::Load(tag, group.y + i)));
+            const Lanes along = hn::Abs(hn::Add(hn::Mul(to_x, along_x), hn::Mul(to_y, along_y)));
+            const Lanes across = hn::Abs(hn::Sub(hn::Mul(to_y, along_x), hn::Mul(to_x, along_y)));
+            const Lanes half = hn::Add(hn::Mul(along, hn::Load(tag, group.half_along + i)),
+                                       hn::Mul(across, hn::Load(tag, group.half_across + i)));
+            hn::Store(hn::Add(hn::Add(centre, half), hn::Set(tag, to_box_)), tag, reach + i);
+        }
+        for (;;) {
+            const double* const next = std::max_element(reach, reach + fan_out);
+            if (!(*next > farthest_)) {
+                return;
+            }
+            const auto i = static_cast<std::uint32_t>(next - reach);
+            reach[i] = -std::numeric_limits<double>::infinity();
+            if (level == 0) {
+                Look(fan_out * (fan_out * number + i));
+            } else {
+                Visit(level - 1, fan_out * number + i);
+            }
+        }
+    }
+
+    HWY_INLINE void Look(std::uint32_t first) {
+        const std::uint32_t end = std::min(first + fan_out, count_);
+        for (std::uint32_t i = first; i < end; ++i) {
+            // As place_points().
+            const double placed =
+                (x_ * vertices_[2 * i] + y_ * vertices_[2 * i + 1]) + translation_;
+            farthest_ = std::max(farthest_, sign_ * placed);
+        }
+    }
+
+    const double* vertices_;
+    std::uint32_t count_;
+    const EdgeBoxes& boxes_;
+    double x_;
+    double y_;
+    double translation_;
+    double sign_;
+    double to_box_;  // from the sum of a box's centre and half, turned, to its farther side
+    double farthest_ = -std::numeric_limits<double>::infinity();
+};
+
+void FindBox(const TransformedPolygon& placed, const EdgeBoxes& boxes, Box& box) {
+    for (const int axis : {0, 1}) {
+        box.min()[axis] = -Farthest(placed, boxes, axis, -1.0).Find();
+        box.max()[axis] = Farthest(placed, boxes, axis, 1.0).Find();
+    }
+}
+
+}  // namespace nearfield::geometry::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nearfield::geometry::kernels {
+
+HWY_EXPORT(FindBox);
+
+Box find_box(const TransformedPolygon& placed, const EdgeBoxes& boxes) {
+    Box box;
+    HWY_DYNAMIC_DISPATCH(FindBox)(placed, boxes, box);
+    return box;
+}
+
+}  // namespace nearfield::geometry::kernels
+#endif
