@@ -101,6 +101,55 @@ void FindBox(const TransformedPolygon& placed, const EdgeBoxes& boxes, Box& box)
     }
 }
 
+/// Nine vertices, by how far they are along and across the way from the first to the last.
+HWY_INLINE void bound_run(const double* interleaved, EdgeBoxes::Group& group, std::uint32_t i) {
+    const Tag tag;
+    const double* const last = interleaved + 2 * fan_out;
+    const double x = last[0] - interleaved[0];
+    const double y = last[1] - interleaved[1];
+    const double length = std::sqrt(x * x + y * y);
+    const double along_x = length > 0.0 ? x / length : 1.0;
+    const double along_y = length > 0.0 ? y / length : 0.0;
+    // The last one in every lane.
+    Lanes low_along = hn::Set(tag, along_x * last[0] + along_y * last[1]);
+    Lanes low_across = hn::Set(tag, along_x * last[1] - along_y * last[0]);
+    Lanes high_along = low_along;
+    Lanes high_across = low_across;
+    for (std::size_t k = 0; k < fan_out; k += hn::Lanes(tag)) {
+        Lanes of_x;
+        Lanes of_y;
+        hn::LoadInterleaved2(tag, interleaved + 2 * k, of_x, of_y);
+        const Lanes along =
+            hn::Add(hn::Mul(hn::Set(tag, along_x), of_x), hn::Mul(hn::Set(tag, along_y), of_y));
+        const Lanes across =
+            hn::Sub(hn::Mul(hn::Set(tag, along_x), of_y), hn::Mul(hn::Set(tag, along_y), of_x));
+        low_along = hn::Min(low_along, along);
+        high_along = hn::Max(high_along, along);
+        low_across = hn::Min(low_across, across);
+        high_across = hn::Max(high_across, across);
+    }
+    const double from = hn::GetLane(hn::MinOfLanes(tag, low_along));
+    const double to = hn::GetLane(hn::MaxOfLanes(tag, high_along));
+    const double right = hn::GetLane(hn::MinOfLanes(tag, low_across));
+    const double left = hn::GetLane(hn::MaxOfLanes(tag, high_across));
+    const double along = 0.5 * (from + to);
+    const double across = 0.5 * (right + left);
+    group.x[i] = along * along_x - across * along_y;
+    group.y[i] = along * along_y + across * along_x;
+    group.along_x[i] = along_x;
+    group.along_y[i] = along_y;
+    group.half_along[i] = 0.5 * (to - from);
+    group.half_across[i] = 0.5 * (left - right);
+}
+
+void BoundRuns(const double* interleaved, std::uint32_t first, std::uint32_t end,
+               EdgeBoxes::Group* groups) {
+    for (std::uint32_t run = first; run < end; ++run) {
+        bound_run(interleaved + std::size_t{2} * fan_out * run, groups[run / fan_out],
+                  run % fan_out);
+    }
+}
+
 }  // namespace nearfield::geometry::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -108,6 +157,12 @@ HWY_AFTER_NAMESPACE();
 namespace nearfield::geometry::kernels {
 
 HWY_EXPORT(FindBox);
+HWY_EXPORT(BoundRuns);
+
+void bound_runs(const Vector* vertices, std::uint32_t first, std::uint32_t end,
+                EdgeBoxes::Group* groups) {
+    HWY_DYNAMIC_DISPATCH(BoundRuns)(vertices->data(), first, end, groups);
+}
 
 Box find_box(const TransformedPolygon& placed, const EdgeBoxes& boxes) {
     Box box;

@@ -97,6 +97,21 @@ GrowingBox box_of_run(const Polygon& polygon, std::uint32_t first, std::uint32_t
     return box;
 }
 
+/// Writes the boxes of the lowest level.
+void bound_runs(const Polygon& polygon, EdgeBoxes::Group* groups) {
+    std::uint32_t run = 0;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        // Those up to the one that holds the last edge, which leads back to the ring's start.
+        const std::uint32_t last = (polygon.ring_end(ring) - 1) / fan_out;
+        kernels::bound_runs(polygon.vertices().data(), run, std::max(run, last), groups);
+        if (run <= last) {
+            const std::uint32_t end = std::min(fan_out * (last + 1), polygon.size());
+            box_of_run(polygon, fan_out * last, end).write(groups[last / fan_out], last % fan_out);
+        }
+        run = last + 1;
+    }
+}
+
 /// Whether eight edges are small against the polygon, judged by some of them.
 bool are_small(const Polygon& polygon) {
     constexpr std::uint32_t samples = 32;
@@ -127,6 +142,7 @@ void EdgeBoxes::make(const Polygon& polygon) {
     }
     groups_.resize(groups);
 
+    bound_runs(polygon, groups_.data());
     std::uint32_t count = over(polygon.size());
     std::uint32_t below = 0;
     std::uint32_t edges = fan_out;  // of a box
@@ -143,7 +159,6 @@ void EdgeBoxes::make(const Polygon& polygon) {
                 const std::uint32_t end =
                     polygon.size() - first < edges ? polygon.size() : first + edges;
                 if (level == 0) {
-                    box_of_run(polygon, first, end).write(group, i);
                     continue;
                 }
                 GrowingBox all(polygon.vertices()[first], chain_end(polygon, end));
@@ -169,7 +184,7 @@ double box_allowance(const TransformedPolygon& placed) {
 
 const EdgeBoxes* KeptEdgeBoxes::find(const Polygon& polygon, BoxSearch search) const {
     State state = state_.load(std::memory_order_acquire);
-    auto& is_asked = is_asked_[static_cast<std::size_t>(search)];
+    std::atomic<bool>& is_asked = is_asked_[static_cast<std::size_t>(search)];
     if (state == State::unknown && is_asked.exchange(true, std::memory_order_relaxed)) {
         const std::lock_guard lock(making_);
         state = state_.load(std::memory_order_relaxed);

@@ -89,6 +89,11 @@ private:
 
 namespace kernels {
 
+/// Writes the boxes of runs of eight edges, each between nine vertices that follow each other:
+/// those from `first` up to, but not including, `end`, into the groups of the lowest level.
+void bound_runs(const Vector* vertices, std::uint32_t first, std::uint32_t end,
+                EdgeBoxes::Group* groups);
+
 /// Returns the bounding box of a polygon's transformed vertices, as find_extent() does, from those
 /// that can lie farthest out by their boxes.
 [[nodiscard]] Box find_box(const TransformedPolygon& placed, const EdgeBoxes& boxes);

@@ -21,6 +21,11 @@ simd::EdgeRange edges_of(std::uint32_t level, std::uint32_t box, std::uint32_t c
             static_cast<std::uint32_t>(std::min<std::uint64_t>(first + together, count))};
 }
 
+/// The order of a heap.
+constexpr auto is_less_deep = [](const auto& one, const auto& other) {
+    return one.most < other.most;
+};
+
 }  // namespace
 
 void VerticesInside::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
@@ -45,9 +50,7 @@ void VerticesInside::divide(std::uint32_t level, std::uint32_t first) {
     checkpoint();
     const std::uint32_t end = std::min(first + fan_out, tree_a_->count(level));
     for (std::uint32_t box = first; box < end; ++box) {
-        const simd::BoxArrays& boxes = tree_a_->boxes(level, first);
-        const geometry::Box own(Vector(boxes.low_x[box], boxes.low_y[box]),
-                                Vector(boxes.high_x[box], boxes.high_y[box]));
+        const geometry::Box own = geometry::box_of(tree_a_->box(level, box));
         if (!own.intersects(b_->box)) {
             continue;
         }
@@ -56,7 +59,7 @@ void VerticesInside::divide(std::uint32_t level, std::uint32_t first) {
             const Vector any = a_->start(vertices.first);
             if (simd::kernels::contain(*tree_b_, any.x(), any.y())) {
                 left_out_ += vertices.end - vertices.first;
-                found_.push_back({0.0, level, box, 0});
+                found_.push_back({level, box});
             }
         } else if (level > 0) {
             divide(level - 1, fan_out * box);
@@ -83,54 +86,52 @@ std::uint32_t VerticesInside::measure(std::uint32_t vertex, std::uint32_t guess)
     return edge;
 }
 
-double VerticesInside::farthest_from(std::uint32_t edge, std::uint32_t level,
-                                     std::uint32_t box) const {
+double VerticesInside::farthest(const Inside& inside) const {
     // The distance from an edge is convex, so it is largest at a corner.
-    const Vector start = b_->start(edge);
-    const Vector end = b_->end(edge);
+    const Vector start = b_->start(inside.edge);
+    const Vector end = b_->end(inside.edge);
     double squared = 0.0;
-    for (const Vector& corner : a_->on_demand->corners(level, box)) {
+    for (const Vector& corner : tree_a_->corners(inside.level, inside.box)) {
         squared =
             std::max(squared, geometry::nearest_on_segment(corner, start, end).squared_distance);
     }
     return std::sqrt(squared);
 }
 
-std::uint32_t VerticesInside::add(std::uint32_t level, std::uint32_t box, std::uint32_t guess) {
-    const double by_guess = farthest_from(guess, level, box);
-    if (!may_be_deepest(by_guess)) {
-        return guess;
+void VerticesInside::add(const Inside& inside) {
+    if (may_be_deepest(inside.most)) {
+        inside_.push_back(inside);
+        std::push_heap(inside_.begin(), inside_.end(), is_less_deep);
     }
-    const std::uint32_t edge = measure(edges_of(level, box, a_->count).first, guess);
-    const double most = std::min(by_guess, farthest_from(edge, level, box));
-    if (may_be_deepest(most)) {
-        inside_.push_back({most, level, box, edge});
-        std::push_heap(inside_.begin(), inside_.end(), [](const Inside& one, const Inside& other) {
-            return one.most < other.most;
-        });
-    }
-    return edge;
 }
 
 void VerticesInside::find_deepest() {
     deepest_ = 0.0;
-    std::uint32_t guess = 0;
+    std::uint32_t near = 0;
+    for (Inside& inside : found_) {
+        near = inside.edge = measure(edges_of(inside.level, inside.box, a_->count).first, near);
+        inside.most = farthest(inside);
+        inside.is_measured = true;
+    }
     for (const Inside& inside : found_) {
-        guess = add(inside.level, inside.box, guess);
+        add(inside);
     }
     while (!inside_.empty() && may_be_deepest(inside_.front().most)) {
         checkpoint();
-        std::pop_heap(inside_.begin(), inside_.end(),
-                      [](const Inside& one, const Inside& other) { return one.most < other.most; });
-        const Inside deepest = inside_.back();
+        std::pop_heap(inside_.begin(), inside_.end(), is_less_deep);
+        Inside inside = inside_.back();
         inside_.pop_back();
-        if (deepest.level > 0) {
-            open(deepest);
-        } else {
-            look_at(deepest);
+        if (inside.is_measured) {
+            open(inside);
+            continue;
         }
+        const double most = inside.most;
+        inside.edge = measure(edges_of(inside.level, inside.box, a_->count).first, inside.edge);
+        inside.most = std::min(most, farthest(inside));
+        inside.is_measured = true;
+        add(inside);
     }
-    // Those of the boxes that were looked at before a deeper vertex was known.
+    // Those of the boxes that were opened before a deeper vertex was known.
     for (const Vertex& vertex : deep_) {
         if (may_be_deepest(vertex.most)) {
             listed_.push_back(vertex.index);
@@ -141,14 +142,17 @@ void VerticesInside::find_deepest() {
 }
 
 void VerticesInside::open(const Inside& inside) {
-    const std::uint32_t first = fan_out * inside.box;
-    const std::uint32_t end = std::min(first + fan_out, tree_a_->count(inside.level - 1));
-    for (std::uint32_t box = first; box < end; ++box) {
-        static_cast<void>(add(inside.level - 1, box, inside.edge));
+    if (inside.level > 0) {
+        const std::uint32_t level = inside.level - 1;
+        const std::uint32_t first = fan_out * inside.box;
+        const std::uint32_t end = std::min(first + fan_out, tree_a_->count(level));
+        for (std::uint32_t box = first; box < end; ++box) {
+            Inside inner{level, box, inside.edge};
+            inner.most = farthest(inner);
+            add(inner);
+        }
+        return;
     }
-}
-
-void VerticesInside::look_at(const Inside& inside) {
     const simd::EdgeRange vertices = edges_of(0, inside.box, a_->count);
     const Vector start = b_->start(inside.edge);
     const Vector end = b_->end(inside.edge);

@@ -15,8 +15,8 @@ namespace nearfield::narrowphase {
 class VerticesInside {
 public:
     /// Lists vertices of A in the box of B: in order, all that lie within `touching` of B's
-    /// boundary, all that may be the deepest inside, and others. Precondition: both are prepared, A
-    /// on demand, and B has a tree.
+    /// boundary, all that may be the deepest inside, and others. Precondition: both are
+    /// prepared and have a tree, that of A in order.
     void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double touching,
               simd::PointList& vertices);
     /// How many more are inside, deeper than `touching`.
@@ -25,10 +25,11 @@ public:
 private:
     /// A box of A inside B.
     struct Inside {
-        double most = 0.0;  ///< its vertices are no deeper
         std::uint32_t level = 0;
         std::uint32_t box = 0;
-        std::uint32_t edge = 0;  ///< of B, near it
+        std::uint32_t edge = 0;    ///< of B, near it or near the box around it
+        double most = 0.0;         ///< from that edge: its vertices are no deeper
+        bool is_measured = false;  ///< the edge is near its own vertices
     };
     struct Vertex {
         double most = 0.0;
@@ -38,17 +39,15 @@ private:
     /// Tells on which side of B's boundary eight boxes of A lie.
     void divide(std::uint32_t level, std::uint32_t first);
     void find_deepest();
+    /// Adds a box of A, unless a vertex is known that is deeper than all of its own.
+    void add(const Inside& inside);
+    /// The same for the boxes in it, or for its vertices.
     void open(const Inside& inside);
-    void look_at(const Inside& inside);
-    /// Adds a box of A, unless a vertex is known that is deeper than all of its own. `guess`: an
-    /// edge of B. Returns one near the box, or the guess.
-    std::uint32_t add(std::uint32_t level, std::uint32_t box, std::uint32_t guess);
     /// Measures how deep a vertex is; returns the edge of B that is nearest, beginning with a
     /// guess.
     std::uint32_t measure(std::uint32_t vertex, std::uint32_t guess);
-    /// How far any vertex of a box can be from an edge of B.
-    [[nodiscard]] double farthest_from(std::uint32_t edge, std::uint32_t level,
-                                       std::uint32_t box) const;
+    /// How far any vertex of a box can be from its edge of B.
+    [[nodiscard]] double farthest(const Inside& inside) const;
     [[nodiscard]] bool may_be_deepest(double most) const;
     void list(simd::PointList& vertices);
 

@@ -30,4 +30,13 @@ AabbTree::AabbTree(const EdgeArrays& edges, std::span<const EdgeRange> pieces, c
     }
 }
 
+std::array<geometry::Vector, 4> AabbTree::corners(std::uint32_t level, std::uint32_t i) const {
+    if (on_demand_ != nullptr) {
+        return on_demand_->corners(level, i);
+    }
+    const Extent of = box(level, i);
+    return {geometry::Vector(of.low_x, of.low_y), geometry::Vector(of.high_x, of.low_y),
+            geometry::Vector(of.high_x, of.high_y), geometry::Vector(of.low_x, of.high_y)};
+}
+
 }  // namespace nearfield::simd

@@ -88,6 +88,14 @@ public:
         }
         return levels_[level];
     }
+    /// One box, placed.
+    [[nodiscard]] Extent box(std::uint32_t level, std::uint32_t i) const {
+        const BoxArrays& all = boxes(level, i / fan_out * fan_out);
+        return {all.low_x[i], all.low_y[i], all.high_x[i], all.high_y[i]};
+    }
+    /// The corners of a box, or of a smaller one that is not along the axes.
+    [[nodiscard]] std::array<geometry::Vector, 4> corners(std::uint32_t level,
+                                                          std::uint32_t i) const;
     /// Null if all edges and boxes are there.
     [[nodiscard]] const EdgesOnDemand* on_demand() const { return on_demand_; }
     /// The start of the ring that the first edge of a lowest box belongs to: one coordinate.

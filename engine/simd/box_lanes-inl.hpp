@@ -43,12 +43,6 @@ HWY_INLINE LanesOfExtent boxes_at(const BoxArrays& boxes, std::size_t i) {
             hn::LoadU(tag, boxes.high_x + i), hn::LoadU(tag, boxes.high_y + i)};
 }
 
-/// A box of a tree that a search has come to.
-HWY_INLINE Extent box_at(const AabbTree& tree, std::uint32_t level, std::uint32_t i) {
-    const BoxArrays& boxes = tree.boxes(level, i / fan_out * fan_out);
-    return {boxes.low_x[i], boxes.low_y[i], boxes.high_x[i], boxes.high_y[i]};
-}
-
 /// Squared distances between boxes, lane by lane; 0 where they intersect. A point is a box too.
 HWY_INLINE Lanes squared_between(const LanesOfExtent& a, const LanesOfExtent& b) {
     const Lanes zero = hn::Zero(Tag());

@@ -94,7 +94,7 @@ public:
                                            ahead_.of(edges.end_x, edges.end_y)));
         }
         const Lanes least_ahead = hn::Set(tag, min_lane(ahead));
-        FindNearVertices(lanes_of(box_at(tree_, 0, box)), least_ahead, range);
+        FindNearVertices(lanes_of(tree_.box(0, box)), least_ahead, range);
         FindNearEdges(range);
     }
 

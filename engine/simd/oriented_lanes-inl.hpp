@@ -46,6 +46,37 @@ HWY_INLINE OrientedLanes oriented_at(const geometry::EdgeBoxes::Group& group, st
             hn::LoadU(tag, group.half_across + i)};
 }
 
+/// A point as a polygon's boxes see it.
+struct LocalPoint {
+    Lanes x;
+    Lanes y;
+
+    HWY_INLINE LocalPoint(const geometry::Placement& placement, double of_x, double of_y) {
+        const double off_x = of_x - placement.translation[0];
+        const double off_y = of_y - placement.translation[1];
+        x = hn::Set(Tag(), placement.x_axis[0] * off_x + placement.x_axis[1] * off_y);
+        y = hn::Set(Tag(), placement.y_axis[0] * off_x + placement.y_axis[1] * off_y);
+    }
+};
+
+/// Squared distances of the boxes i, i + 1, ... of a group, enlarged by an allowance, from a point.
+HWY_INLINE Lanes squared_from(const geometry::EdgeBoxes::Group& group, std::size_t i,
+                              const LocalPoint& point, Lanes allowance) {
+    const Tag tag;
+    const Lanes off_x = hn::Sub(point.x, hn::LoadU(tag, group.x + i));
+    const Lanes off_y = hn::Sub(point.y, hn::LoadU(tag, group.y + i));
+    const Lanes along_x = hn::LoadU(tag, group.along_x + i);
+    const Lanes along_y = hn::LoadU(tag, group.along_y + i);
+    const auto beyond = [&](Lanes off, const double* half) HWY_ATTR {
+        const Lanes reach = hn::Add(hn::LoadU(tag, half + i), allowance);
+        return hn::Max(hn::Sub(hn::Abs(off), reach), hn::Zero(tag));
+    };
+    const Lanes along =
+        beyond(hn::Add(hn::Mul(along_x, off_x), hn::Mul(along_y, off_y)), group.half_along);
+    const Lanes across = beyond(cross_lanes(along_x, along_y, off_x, off_y), group.half_across);
+    return hn::Add(hn::Mul(along, along), hn::Mul(across, across));
+}
+
 /// How far boxes are apart across the first ones, at least.
 HWY_INLINE Lanes gap_across(const OrientedLanes& boxes, const OrientedLanes& others, Lanes off_x,
                             Lanes off_y) {

@@ -11,6 +11,7 @@
 // clang-format off
 #include <hwy/foreach_target.h>
 #include <engine/simd/box_lanes-inl.hpp>
+#include <engine/simd/oriented_lanes-inl.hpp>
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -108,11 +109,48 @@ HWY_INLINE std::uint32_t in_order(const AabbTree& tree, std::uint32_t* found, st
     return count;
 }
 
+/// How far the boxes of a tree are from a point, at least.
+class DistancesFrom {
+public:
+    HWY_INLINE DistancesFrom(const AabbTree& tree, double x, double y)
+        : tree_(tree),
+          point_(lanes_of({x, y, x, y})),
+          local_(
+              tree.on_demand() != nullptr ? tree.on_demand()->placement() : geometry::Placement{},
+              x, y),
+          allowance_(
+              hn::Set(Tag(), tree.on_demand() != nullptr ? tree.on_demand()->allowance() : 0.0)) {}
+
+    /// Writes the squares for eight boxes.
+    HWY_INLINE void Square(std::uint32_t level, std::uint32_t first, double* squared) const {
+        const EdgesOnDemand* const own = tree_.on_demand();
+        if (own == nullptr) {
+            const BoxArrays& boxes = tree_.boxes(level, first);
+            for (std::size_t i = 0; i < fan_out; i += hn::Lanes(Tag())) {
+                hn::StoreU(squared_between(boxes_at(boxes, first + i), point_), Tag(), squared + i);
+            }
+            return;
+        }
+        const geometry::EdgeBoxes::Group& group = own->group(level, first / fan_out);
+        for (std::size_t i = 0; i < fan_out; i += hn::Lanes(Tag())) {
+            hn::StoreU(squared_from(group, i, local_, allowance_), Tag(), squared + i);
+        }
+    }
+
+private:
+    const AabbTree& tree_;
+    LanesOfExtent point_;
+    LocalPoint local_;
+    Lanes allowance_;
+};
+
 std::uint32_t FindEdgesWithinByTree(const AabbTree& tree, double point_x, double point_y,
                                     double most, std::uint32_t enough, VisitsLeft& left,
                                     std::uint32_t* found) {
     const Tag tag;
-    const LanesOfExtent point = lanes_of({point_x, point_y, point_x, point_y});
+    const DistancesFrom distances(tree, point_x, point_y);
+    const Lanes x = hn::Set(tag, point_x);
+    const Lanes y = hn::Set(tag, point_y);
     const Lanes limit = hn::Set(tag, most);
     std::uint32_t count = 0;
     for_leaves_opened(
@@ -122,16 +160,15 @@ std::uint32_t FindEdgesWithinByTree(const AabbTree& tree, double point_x, double
                 return 0U;
             }
             --left.count;
-            const BoxArrays& boxes = tree.boxes(level, first);
-            return bits_of_eight([&](std::size_t i) HWY_ATTR {
-                return hn::Le(squared_between(boxes_at(boxes, first + i), point), limit);
-            });
+            double squared[fan_out];
+            distances.Square(level, first, squared);
+            return bits_of_eight(
+                [&](std::size_t i) HWY_ATTR { return hn::Le(hn::LoadU(tag, squared + i), limit); });
         },
         [&](std::uint32_t box) HWY_ATTR {
             const EdgeRange edges = tree.edges_of(box);
             for (std::size_t i = edges.first; i < edges.end; i += hn::Lanes(tag)) {
-                const Lanes squared =
-                    squared_distances(edges_along(tree.edges(), i), point.low_x, point.low_y);
+                const Lanes squared = squared_distances(edges_along(tree.edges(), i), x, y);
                 count = append_lanes(hn::Le(squared, limit), i, edges.end, found, count);
             }
             return count <= enough && left.count > 0;
@@ -187,7 +224,7 @@ std::uint32_t FindEdgesNear(const AabbTree& tree, const Extent& box, const AabbT
         tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
         [&](std::uint32_t of_edges) HWY_ATTR {
             checkpoint.step();
-            if (Meets(others, grown(box_at(tree, 0, of_edges), reach))) {
+            if (Meets(others, grown(tree.box(0, of_edges), reach))) {
                 count = append_edges_in(tree, of_edges, bounds, found, count);
             }
             return true;
@@ -200,7 +237,12 @@ class NearestSearch {
 public:
     HWY_INLINE NearestSearch(const AabbTree& tree, double x, double y, const NearEdge& guess,
                              VisitsLeft& left)
-        : tree_(tree), point_{x, y, x, y}, best_(guess), left_(left) {}
+        : tree_(tree),
+          distances_(tree, x, y),
+          point_x_(x),
+          point_y_(y),
+          best_(guess),
+          left_(left) {}
 
     void Visit(std::uint32_t level, std::uint32_t first) {
         if (left_.count == 0) {
@@ -208,14 +250,12 @@ public:
         }
         --left_.count;
         const Tag tag;
-        const LanesOfExtent point = lanes_of(point_);
-        const BoxArrays& boxes = tree_.boxes(level, first);
         double squared[fan_out];
+        distances_.Square(level, first, squared);
         std::uint32_t bits = 0;
         Lanes least = hn::Set(tag, std::numeric_limits<double>::infinity());
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
-            const Lanes distances = squared_between(boxes_at(boxes, first + i), point);
-            hn::StoreU(distances, tag, squared + i);
+            const Lanes distances = hn::LoadU(tag, squared + i);
             bits |= bits_of(hn::Lt(distances, hn::Set(tag, best_.squared))) << i;
             least = hn::Min(least, distances);
         }
@@ -251,8 +291,8 @@ private:
         }
         const Tag tag;
         const EdgeArrays& edges = tree_.edges();
-        const Lanes x = hn::Set(tag, point_.low_x);
-        const Lanes y = hn::Set(tag, point_.low_y);
+        const Lanes x = hn::Set(tag, point_x_);
+        const Lanes y = hn::Set(tag, point_y_);
         const EdgeRange range = tree_.edges_of(box);
         for (std::size_t i = range.first; i < range.end; i += hn::Lanes(tag)) {
             // The other lanes may hold edges that are as near.
@@ -266,7 +306,9 @@ private:
     }
 
     const AabbTree& tree_;
-    Extent point_;
+    DistancesFrom distances_;
+    double point_x_;
+    double point_y_;
     NearEdge best_;
     VisitsLeft& left_;
 };

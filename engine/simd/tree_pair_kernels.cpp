@@ -33,7 +33,7 @@ HWY_INLINE OrientedLanes oriented_box(const AabbTree& tree, std::uint32_t level,
                 hn::Set(tag, group.half_along[i]),
                 hn::Set(tag, group.half_across[i] + own->allowance())};
     }
-    const Extent extent = box_at(tree, level, box);
+    const Extent extent = tree.box(level, box);
     return {hn::Set(tag, 0.5 * (extent.low_x + extent.high_x)),
             hn::Set(tag, 0.5 * (extent.low_y + extent.high_y)),
             hn::Set(tag, 1.0),
@@ -85,7 +85,7 @@ private:
                          std::uint32_t box_of_other, const Use& use) {
         const Tag tag;
         const BoxArrays& boxes = tree.boxes(level, first);
-        const LanesOfExtent bounds = lanes_of(box_at(other, level_of_other, box_of_other));
+        const LanesOfExtent bounds = lanes_of(other.box(level_of_other, box_of_other));
         double squared[fan_out];
         std::uint32_t bits = 0;
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
@@ -160,7 +160,7 @@ public:
         const EdgeArrays& b = b_.edges();
         const EdgeRange of_a = a_.edges_of(box_a);
         const EdgeRange of_b = b_.edges_of(box_b);
-        const LanesOfExtent box = lanes_of(grown(box_at(b_, 0, box_b), 2.0 * margin_));
+        const LanesOfExtent box = lanes_of(grown(b_.box(0, box_b), 2.0 * margin_));
         std::uint32_t near = bits_of_eight(
             [&](std::size_t i) HWY_ATTR { return meet(box, EdgeLanes(a, of_a.first + i)); });
         for (near &= bits_of_range(of_a); near != 0; near &= near - 1) {
@@ -222,7 +222,7 @@ private:
         const EdgeArrays& edges = of_edges.edges();
         const EdgeRange some_vertices = of_vertices.edges_of(box_of_vertices);
         const EdgeRange some_edges = of_edges.edges_of(box_of_edges);
-        const LanesOfExtent box = lanes_of(box_at(of_edges, 0, box_of_edges));
+        const LanesOfExtent box = lanes_of(of_edges.box(0, box_of_edges));
         std::uint32_t near = bits_of_eight([&](std::size_t i) HWY_ATTR {
             const Lanes x = hn::LoadU(tag, vertices.start_x + some_vertices.first + i);
             const Lanes y = hn::LoadU(tag, vertices.start_y + some_vertices.first + i);

@@ -98,7 +98,9 @@ void PenetrationSolver::answer(const PenetrationQuery& query, const queries::Sha
 std::uint32_t PenetrationSolver::find_vertices_inside(const TransformedEdges& a,
                                                       const TransformedEdges& b, bool summary_only,
                                                       double touching) {
-    if (summary_only && a.on_demand != nullptr && !is_small(b)) {
+    const bool has_boxes = summary_only && !is_small(a) && !is_small(b) && a.tree().is_in_order() &&
+                           a.placed.polygon().find_boxes(geometry::BoxSearch::edges) != nullptr;
+    if (has_boxes) {
         vertices_.find(a, b, touching, inside_);
         boundary_.set(b);
         inside_.resize(
