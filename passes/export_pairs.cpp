@@ -27,7 +27,8 @@ ExportPairs::ExportPairs(const gpu::Device& device, const graph::ComputeLayout& 
       rows(graph.import_buffer({"pair rows"}, after_search)),
       pairs(graph.import_buffer({"resident pairs"}, of_host)),
       records(graph.import_buffer({"resident pair records"}, of_host)),
-      headers(graph.import_buffer({"resident pair headers"}, of_host)) {
+      headers(graph.import_buffer({"resident pair headers"}, of_host)),
+      copy_header(device) {
     graph::Handle of_pairs = pairs;
     graph::Handle of_records = records;
     graph::Handle of_headers = headers;
@@ -39,7 +40,7 @@ ExportPairs::ExportPairs(const gpu::Device& device, const graph::ComputeLayout& 
               {1, of_headers, write}},
              [this](const ComputeShader& shader, const graph::PassCommands& commands,
                     const Input& input) {
-                 shader.push(commands, shaders::ExportPairsPush{input.origin});
+                 shader.push(commands, input.pairs);
                  shader.dispatch_indirect(commands, commands.part(arguments).buffer,
                                           search_argument_bytes * shaders::pair_total);
              });
@@ -50,7 +51,9 @@ ExportPairs::ExportPairs(const gpu::Device& device, const graph::ComputeLayout& 
               {3, of_records, write}},
              [this](const ComputeShader& shader, const graph::PassCommands& commands,
                     const Input& input) {
-                 shader.push(commands, input.search);
+                 shaders::SearchPush push = input.search;
+                 push.capacity = input.pairs.point_room;
+                 shader.push(commands, push);
                  shader.dispatch_indirect(commands, commands.part(arguments).buffer,
                                           search_argument_bytes * shaders::point_total);
              });

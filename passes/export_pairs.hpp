@@ -3,6 +3,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/graph/recorded_graph.hpp>
 #include <passes/compute_shader.hpp>
+#include <passes/exports.hpp>
 
 #include <shaders/push.h>
 
@@ -16,7 +17,7 @@ struct ExportPairs {
     /// What they are recorded from, beside the resources that they bind.
     struct Input {
         shaders::SearchPush search;  ///< of the part that was searched before
-        shaders::vec2 origin;
+        shaders::ExportPairsPush pairs;
     };
 
     ComputeShader row_shader;
@@ -32,6 +33,7 @@ struct ExportPairs {
     graph::Handle pairs;
     graph::Handle records;
     graph::Handle headers;
+    CopyHeader copy_header;  ///< after all parts
 };
 
 }  // namespace nearfield::passes

@@ -98,6 +98,24 @@ CopyBack::CopyBack(const gpu::Device& device)
     graph.compile(device);
 }
 
+CopyHeader::CopyHeader(const gpu::Device& device)
+    : header(graph.import_buffer({"resident header"}, {write, Access::exported_buffer})),
+      target(graph.import_buffer({"header of the host"}, exported_buffer)) {
+    graph.add_pass(
+        "copy header", graph::PassKind::compute,
+        [this](graph::PassBuilder& pass) {
+            pass.read(header, Access::transfer_read);
+            static_cast<void>(pass.write(target, Access::transfer_write));
+        },
+        [this, &device](const graph::PassCommands& commands, const Input&) {
+            const gpu::BufferPart& from = commands.part(header);
+            const gpu::BufferPart& to = commands.part(target);
+            const VkBufferCopy range{from.offset, to.offset, to.bytes};
+            device.functions().vkCmdCopyBuffer(commands, from.buffer, to.buffer, 1, &range);
+        });
+    graph.compile(device);
+}
+
 ExportField::ExportField(const gpu::Device& device, const graph::ComputeLayout& layout)
     : shader(device, layout, shaders::export_field_comp, "nearfield export field"),
       words(graph.import_buffer({"field results"}, after_tiles)),

@@ -24,6 +24,17 @@ struct CopyBack {
     graph::Handle read_back;
 };
 
+/// Copies a header, once all of an output is written, to where the host wants it.
+struct CopyHeader {
+    explicit CopyHeader(const gpu::Device& device);
+
+    struct Input {};
+
+    graph::RecordedGraph<Input> graph;
+    graph::Handle header;  ///< nearfield's own
+    graph::Handle target;
+};
+
 /// Copies the resolved cells of a field to images for the host's shaders. Leaves the images in the
 /// layout in which these read them, or in the one that the host asked for where they are its own.
 struct ExportField {

@@ -3,6 +3,7 @@
 
 // What stays on the device of the points of a world's pairs that were found, behind those of the parts
 // before, a thread for as many as in search_points.comp, which threads of a workgroup take in turns.
+// `push.capacity`: of points that may be written.
 
 #include "nearfield/nearfield.glsl"
 #include "search.glsl"
@@ -28,7 +29,8 @@ void main() {
         uvec4 record = scratch_unit(push.point_units + point);
         uint target = before + (record.x >> local_shift);
         record.x &= (1u << local_shift) - 1u;
-        if (record.w != 0u && target < scratch[record_total]) {
+        if (record.w != 0u && target < scratch[record_total] &&
+            of_parts + target < push.capacity) {
             vec4 frame = uintBitsToFloat(scratch_unit(push.frames + record.x));
             records[of_parts + target] = exported(record, frame, 0u);
         }

@@ -35,6 +35,11 @@ uvec4 instance_unit(uint number, uint i) {
     return instances[units_of_query + units_of_instance * number + i];
 }
 
+// Of points in a row, those that are written.
+uint written(uint first, uint count) {
+    return min(count, push.point_room - min(first, push.point_room));
+}
+
 // `before`: the rows and records of the parts before.
 void write_pair(uint row, uvec2 before) {
     uvec4 first = rows[units_of_row * (row + 1u)];
@@ -45,12 +50,14 @@ void write_pair(uint row, uvec2 before) {
     flags |= (first.z & row_to_resolve) != 0u ? nearfield_uncertain_flag : 0u;
     flags |= (first.z & row_intersects) != 0u ? nearfield_intersects_flag : 0u;
     uint first_of_b = third.y > 0u ? before.y + third.x : third.x;
-    bool has_deepest = !is_undecided && third.z != no_deepest;
+    bool has_deepest =
+        !is_undecided && third.z != no_deepest && written(before.y + third.z, 1u) > 0u;
     float unit = uintBitsToFloat(instance_unit(first.y, 1u).z);
     float depth = has_deepest ? unit * uintBitsToFloat(third.w) : 0.0;
     pairs[before.x + row] = NearfieldPair(
         instance_unit(first.x, 3u).z, instance_unit(first.y, 3u).z, first.z & row_count_mask, flags,
-        before.y + first.w, second.x, first_of_b, third.y,
+        before.y + first.w, written(before.y + first.w, second.x), first_of_b,
+        written(first_of_b, third.y),
         has_deepest ? before.y + third.z : nearfield_no_point, depth);
 }
 
@@ -59,12 +66,14 @@ void main() {
                gl_LocalInvocationID.x;
     uvec4 totals = rows[0];
     uvec4 before = rows[unit_of_parts_before];
-    if (row < totals.x) {
+    if (row < totals.x && before.x + row < push.pair_room) {
         write_pair(row, before.xy);
     }
     if (row == 0u) {
-        bool overflows = (before.z | totals.z) != 0u;
-        headers[0].header = header_of(before.x + totals.x, push.origin, 0.0, overflows);
-        headers[1].header = header_of(before.y + totals.y, push.origin, 0.0, overflows);
+        uvec2 found = before.xy + totals.xy;
+        uvec2 stored = min(found, uvec2(push.pair_room, push.point_room));
+        bool overflows = (before.z | totals.z) != 0u || found != stored;
+        headers[0].header = header_of(stored.x, push.origin, 0.0, overflows);
+        headers[1].header = header_of(stored.y, push.origin, 0.0, overflows);
     }
 }

@@ -160,6 +160,8 @@ struct WorldQueryPush {
 
 struct ExportPairsPush {
     vec2 origin;
+    uint pair_room;  // pairs and points that may be written
+    uint point_room;
 };
 
 struct ExportFieldPush {

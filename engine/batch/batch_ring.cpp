@@ -2,13 +2,25 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/batch/batch_ring.hpp>
+#include <engine/queries/boundary_points.hpp>
 #include <engine/queries/field_grid.hpp>
+#include <engine/queries/overlap_regions.hpp>
+#include <nearfield/on_device.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 namespace nearfield::batch {
+namespace {
+
+/// What stays on the device of a query with so many points.
+std::uint64_t bytes_of_points(double points) {
+    return sizeof(SummaryData) + static_cast<std::uint64_t>(std::ceil(points)) * sizeof(PointData);
+}
+
+}  // namespace
 
 BatchRing::BatchRing(std::uint32_t frames, const queries::QueryLimits& limits,
                      const std::optional<DeviceThresholds>& thresholds, const JobSystem& jobs,
@@ -83,18 +95,28 @@ void BatchRing::reserve(Frame& frame, const Batch& batch) {
     release(frame);
 }
 
-FieldGrid BatchRing::field_grid(const DistanceFieldQuery& query) const {
-    AnyQuery any = query;
+/// Checks a query that is in no batch. `any` has to stay; `result` states what is wrong, if it
+/// throws.
+template <class Query>
+queries::CheckedQuery BatchRing::check_alone(AnyQuery& any, AnyResult& result) const {
+    const Query& query = std::get<Query>(any);
     const queries::QueryShapes shapes{shapes_->find(query.a.shape), shapes_->find(query.b.shape)};
     choose_techniques({&any, 1}, {&shapes, 1}, planning_.rule);
-    AnyResult any_result;
     queries::CheckedQuery checked;
-    std::optional<queries::Grid> grid;
-    if (queries::check(0, any, shapes, planning_.limits, checked, any_result)) {
-        grid = queries::grid_of_field(checked, std::get<DistanceFieldResult>(any_result));
+    if (!queries::check(0, any, shapes, planning_.limits, checked, result)) {
+        throw StatusException(std::get<typename Query::Result>(result).status);
     }
+    return checked;
+}
+
+FieldGrid BatchRing::field_grid(const DistanceFieldQuery& query) const {
+    AnyQuery any = query;
+    AnyResult result;
+    const queries::CheckedQuery checked = check_alone<DistanceFieldQuery>(any, result);
+    auto& field = std::get<DistanceFieldResult>(result);
+    const std::optional<queries::Grid> grid = queries::grid_of_field(checked, field);
     if (!grid) {
-        throw StatusException(std::get<DistanceFieldResult>(any_result).status);
+        throw StatusException(field.status);
     }
     if (std::max(grid->width, grid->height) > UINT32_MAX) {
         throw StatusException({StatusCode::too_large, "the field would have " +
@@ -103,6 +125,37 @@ FieldGrid BatchRing::field_grid(const DistanceFieldQuery& query) const {
     }
     return {geometry::to_public(grid->origin), grid->cell, static_cast<std::uint32_t>(grid->width),
             static_cast<std::uint32_t>(grid->height)};
+}
+
+std::uint64_t BatchRing::target_size(PenetrationQuery query) const {
+    query.on_device = true;
+    AnyQuery any = query;
+    AnyResult result;
+    return bytes_of_points(queries::max_points(check_alone<PenetrationQuery>(any, result)));
+}
+
+std::uint64_t BatchRing::target_size(ContactQuery query) const {
+    query.on_device = true;
+    AnyQuery any = query;
+    AnyResult result;
+    const queries::CheckedQuery checked = check_alone<ContactQuery>(any, result);
+    return bytes_of_points(std::ceil(queries::max_points(checked)) +
+                           queries::max_samples(*checked.b, checked.budget.cell));
+}
+
+std::uint64_t BatchRing::target_size(IntersectionQuery query) const {
+    query.on_device = true;
+    AnyQuery any = query;
+    AnyResult result;
+    const queries::CheckedQuery checked = check_alone<IntersectionQuery>(any, result);
+    auto& overlap = std::get<IntersectionResult>(result);
+    queries::OverlapRegions overlaps;
+    if (!overlaps.cover(checked, planning_.limits, overlap)) {
+        throw StatusException(overlap.status);
+    }
+    const double samples = query.samples_on_device ? overlaps.regions().cells() : 0.0;
+    return sizeof(IntersectionSummaryData) +
+           static_cast<std::uint64_t>(samples) * sizeof(IntersectionSampleData);
 }
 
 void BatchRing::trim() noexcept {

@@ -66,6 +66,10 @@ public:
     [[nodiscard]] solvers::SolverJobs& solvers() { return planning_.solvers; }
     /// Throws StatusException as the query fails.
     [[nodiscard]] FieldGrid field_grid(const DistanceFieldQuery& query) const;
+    // See Context::target_size.
+    [[nodiscard]] std::uint64_t target_size(PenetrationQuery query) const;
+    [[nodiscard]] std::uint64_t target_size(ContactQuery query) const;
+    [[nodiscard]] std::uint64_t target_size(IntersectionQuery query) const;
     /// Drops the device memory that no batch in flight uses.
     void trim() noexcept;
     /// Lists the tiles of the batch started last.
@@ -100,6 +104,8 @@ private:
     [[nodiscard]] Frame& free_frame();
     void release(Frame& frame);
     [[nodiscard]] queries::FindShape find_shape_for(Frame& frame);
+    template <class Query>
+    [[nodiscard]] queries::CheckedQuery check_alone(AnyQuery& any, AnyResult& result) const;
     /// Makes room in a frame for a batch that is not started.
     void reserve(Frame& frame, const Batch& batch);
     template <class Resident>

@@ -20,7 +20,7 @@ std::size_t place_of(const std::vector<Output>& all, std::uint32_t query) {
 }
 
 /// The error of a query whose points do not all stay.
-Status no_room(const device_input::RecordsOutput& records, std::uint32_t count) {
+Status no_room(const device_input::BufferOutput& records, std::uint32_t count) {
     const std::uint64_t bytes =
         sizeof(SummaryData) + std::uint64_t{std::max(count, records.capacity)} * sizeof(PointData);
     return {StatusCode::overflow,
@@ -383,7 +383,7 @@ void BatchRunner::solve_what_had_no_room() {
 
 /// Says in the results which records that stay were more than there was room for.
 void BatchRunner::check_room_for_records() {
-    for (const device_input::RecordsOutput& records : resident_.records) {
+    for (const device_input::BufferOutput& records : resident_.records) {
         std::visit(
             [&](auto& result) {
                 if constexpr (requires { result.count, result.points; }) {

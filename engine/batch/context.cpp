@@ -237,6 +237,18 @@ Expected<FieldGrid> Context::field_grid(const DistanceFieldQuery& query) const {
     return catch_to_expected([&] { return implementation_->ring().field_grid(query); });
 }
 
+Expected<std::uint64_t> Context::target_size(const PenetrationQuery& query) const {
+    return catch_to_expected([&] { return implementation_->ring().target_size(query); });
+}
+
+Expected<std::uint64_t> Context::target_size(const ContactQuery& query) const {
+    return catch_to_expected([&] { return implementation_->ring().target_size(query); });
+}
+
+Expected<std::uint64_t> Context::target_size(const IntersectionQuery& query) const {
+    return catch_to_expected([&] { return implementation_->ring().target_size(query); });
+}
+
 Expected<std::vector<FieldOnDevice>> Context::layout_on_device(
     const Batch& batch, QueryHandle<DistanceFieldQuery> query) {
     return implementation_->unless_lost(

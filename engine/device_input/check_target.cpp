@@ -12,6 +12,8 @@ namespace {
 constexpr std::string_view signed_distance_name = "the target's image for the signed distance";
 constexpr std::string_view feature_name = "the target's image for the feature";
 constexpr std::string_view buffer_name = "the target's buffer";
+constexpr std::string_view pairs_name = "the target's buffer of pairs";
+constexpr std::string_view points_name = "the target's buffer of points";
 constexpr std::string_view poses_name = "the buffer of the poses";
 
 struct Layout {
@@ -119,6 +121,15 @@ Status check_image(const ImageTarget& target, VkFormat format, std::string_view 
     return check_layout(target, target.after.layout, name, "after");
 }
 
+Status check_bytes(const BufferTarget& target, double bytes, std::string_view what,
+                   std::string_view name) {
+    return bytes <= static_cast<double>(target.size)
+               ? Status()
+               : refused(name, "has " + std::to_string(target.size) + " bytes from offset " +
+                                   std::to_string(target.offset) + " on; the " + std::string(what) +
+                                   " may take " + geometry::number(bytes));
+}
+
 Status check_size(const ImageTarget& target, std::string_view name, std::uint64_t width,
                   std::uint64_t height) {
     const auto [across, up] = target.extent;
@@ -142,6 +153,80 @@ Status check_place(std::string_view name, VkBufferUsageFlags usage, const char* 
                                    std::to_string(offset) + ", which is no multiple of " +
                                    std::to_string(offset_alignment) +
                                    " (minStorageBufferOffsetAlignment of this device)");
+}
+
+/// Bytes of a buffer.
+struct Range {
+    std::uint64_t first = 0;
+    std::uint64_t size = 0;
+};
+
+/// Of a target: what is written, and its header.
+std::array<Range, 2> ranges_of(const BufferTarget& target) {
+    return {{{target.offset, target.size},
+             {target.header_offset.value_or(0), target.header_offset ? sizeof(HeaderData) : 0}}};
+}
+
+bool overlap(const Range& i, const Range& j) {
+    return i.first < j.first + j.size && j.first < i.first + i.size;
+}
+
+/// Whether two targets have bytes in common.
+bool overlap(const BufferTarget& i, const BufferTarget& j) {
+    const std::array<Range, 2> ranges = ranges_of(j);
+    const auto is_in_j = [&](const Range& range) {
+        return std::any_of(ranges.begin(), ranges.end(),
+                           [&](const Range& other) { return overlap(range, other); });
+    };
+    const std::array<Range, 2> of_i = ranges_of(i);
+    return i.buffer == j.buffer && std::any_of(of_i.begin(), of_i.end(), is_in_j);
+}
+
+/// Of a target that is otherwise good.
+Status check_header(const BufferTarget& target, std::string_view name) {
+    if (!target.header_offset) {
+        return {};
+    }
+    const std::uint64_t offset = *target.header_offset;
+    if ((target.usage & VK_BUFFER_USAGE_TRANSFER_DST_BIT) == 0) {
+        return refused(name, "was created with the usage " + hexadecimal(target.usage) +
+                                 ", which lacks VK_BUFFER_USAGE_TRANSFER_DST_BIT, and the header "
+                                 "goes there, too (BufferTarget::header_offset)");
+    }
+    if (offset % sizeof(std::uint32_t) != 0 || offset > UINT64_MAX - sizeof(HeaderData)) {
+        return refused(name, "is to have its header at the offset " + std::to_string(offset) +
+                                 ", which is no multiple of 4 that has bytes behind it");
+    }
+    const auto [range, header] = ranges_of(target);
+    return overlap(range, header)
+               ? refused(name, "is to have its header at the offset " + std::to_string(offset) +
+                                   ", within the range that is written, from " +
+                                   std::to_string(range.first) + " on " +
+                                   std::to_string(range.size) + " bytes")
+               : Status();
+}
+
+/// `smallest`: what it holds at least, in bytes.
+Status check_buffer(const BufferTarget& target, std::string_view name, std::uint64_t smallest,
+                    std::string_view what, std::uint64_t offset_alignment) {
+    if (target.buffer == VK_NULL_HANDLE) {
+        return refused(name, "is null (BufferTarget::buffer)");
+    }
+    if (Status status = check_place(name, target.usage, "written", target.offset, offset_alignment);
+        !status.ok()) {
+        return status;
+    }
+    if (target.size > UINT64_MAX - target.offset) {
+        return refused(name,
+                       "has no number of bytes that may be written "
+                       "(BufferTarget::size), such as VK_WHOLE_SIZE");
+    }
+    if (Status status = check_bytes(target, static_cast<double>(smallest), what, name);
+        !status.ok()) {
+        return status;
+    }
+    Status status = check_states(target.before, target.after, name);
+    return status.ok() ? check_header(target, name) : status;
 }
 
 std::string taken(std::uint32_t query) {
@@ -192,31 +277,14 @@ Status Targets::add(const FieldTarget& target, bool has_features, std::uint32_t 
 }
 
 Status Targets::add(const BufferTarget& target, std::uint32_t query) {
-    if (target.buffer == VK_NULL_HANDLE) {
-        return refused(buffer_name, "is null (BufferTarget::buffer)");
-    }
-    if (Status status =
-            check_place(buffer_name, target.usage, "written", target.offset, offset_alignment_);
-        !status.ok()) {
-        return status;
-    }
-    if (target.size > UINT64_MAX - target.offset) {
-        return refused(buffer_name,
-                       "has no number of bytes that may be written "
-                       "(BufferTarget::size), such as VK_WHOLE_SIZE");
-    }
     // Records and samples begin with a summary, of this size at most, even if there are none.
-    if (Status status = check_room(target, sizeof(IntersectionSummaryData), "summary");
+    if (Status status = check_buffer(target, buffer_name, sizeof(IntersectionSummaryData),
+                                     "summary", offset_alignment_);
         !status.ok()) {
-        return status;
-    }
-    if (Status status = check_states(target.before, target.after, buffer_name); !status.ok()) {
         return status;
     }
     for (const OfQuery& other : added_) {
-        if (other.buffer.buffer == target.buffer &&
-            target.offset < other.buffer.offset + other.buffer.size &&
-            other.buffer.offset < target.offset + target.size) {
+        if (overlap(other.buffer, target)) {
             return refused(buffer_name, taken(other.query));
         }
     }
@@ -230,12 +298,19 @@ Status check_room(const FieldTarget& target, std::uint64_t width, std::uint64_t 
 }
 
 Status check_room(const BufferTarget& target, double bytes, std::string_view what) {
-    return bytes <= static_cast<double>(target.size)
-               ? Status()
-               : refused(buffer_name, "has " + std::to_string(target.size) + " bytes from offset " +
-                                          std::to_string(target.offset) + " on; the " +
-                                          std::string(what) + " may take " +
-                                          geometry::number(bytes));
+    return check_bytes(target, bytes, what, buffer_name);
+}
+
+Status check_pair_target(const PairTarget& target, std::uint64_t offset_alignment) {
+    Status status =
+        check_buffer(target.pairs, pairs_name, sizeof(PairData), "first pair", offset_alignment);
+    if (status.ok()) {
+        status = check_buffer(target.points, points_name, sizeof(PointData), "first point",
+                              offset_alignment);
+    }
+    return status.ok() && overlap(target.pairs, target.points)
+               ? refused(points_name, "has bytes in common with that of pairs")
+               : status;
 }
 
 Status check_poses(const DevicePoses& poses, std::uint32_t elements, std::uint64_t offset_alignment,

@@ -2,6 +2,7 @@
 
 #include <nearfield/device_poses.hpp>
 #include <nearfield/on_device.hpp>
+#include <nearfield/pairs_on_device.hpp>
 #include <nearfield/status.hpp>
 
 #include <cstdint>
@@ -45,6 +46,9 @@ private:
                                 std::uint64_t height);
 /// Checks that this many bytes fit the range of the buffer; `what` they are: "records".
 [[nodiscard]] Status check_room(const BufferTarget& target, double bytes, std::string_view what);
+
+/// Checks what the host states about the buffers for the pairs of a table.
+[[nodiscard]] Status check_pair_target(const PairTarget& target, std::uint64_t offset_alignment);
 
 /// Bytes from the first of so many poses of the host's to the end of the last one.
 [[nodiscard]] constexpr std::uint64_t bytes_of_poses(const DevicePoses& poses,

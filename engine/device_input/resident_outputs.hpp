@@ -61,11 +61,6 @@ struct BufferOutput {
     std::uint64_t block_bytes = 0;  ///< that the passes keep from step to step
 };
 
-/// Points that are exported as records.
-struct RecordsOutput : BufferOutput {
-    std::uint32_t max_capacity = 0;  ///< upper bound of what there can be, at any poses
-};
-
 /// Tiles of one intersection in one tile batch.
 struct SampleRunOutput {
     std::uint32_t tile_batch = 0;
@@ -83,7 +78,7 @@ struct SamplesOutput : BufferOutput {
 struct ResidentOutputs {
     std::vector<FieldOutputs> fields;
     std::vector<FieldPartOutput> field_parts;
-    std::vector<RecordsOutput> records;
+    std::vector<BufferOutput> records;
     std::vector<RecordRunOutput> record_runs;
     std::vector<SamplesOutput> samples;
     std::vector<SampleRunOutput> sample_runs;

@@ -146,12 +146,13 @@ void ResidentOutputsBuilder::add_records(const Plan& plan, std::uint32_t query, 
     const PlannedQuery& planned = plan.queries[query];
     const TransformedPolygon a(*planned.a, planned.pose_a);
     const TransformedPolygon b(*planned.b, planned.pose_b);
-    RecordsOutput& records = resident.records.emplace_back();
+    BufferOutput& records = resident.records.emplace_back();
     records.query = query;
     records.cell = planned.budget.cell;
     records.error_bound = error_of_records(a, b);
     records.origin = b.translation();
     records.first_run = static_cast<std::uint32_t>(resident.record_runs.size());
+    std::uint32_t most = 0;  // at any poses
     const auto add = [&](std::uint32_t direction, const TransformedPolygon& in) {
         const auto& directions = plan.pairs.directions;
         const auto found = std::find_if(
@@ -165,7 +166,7 @@ void ResidentOutputsBuilder::add_records(const Plan& plan, std::uint32_t query, 
         run.flags = records.run_count == 0 ? 0 : point_flags::on_b;
         run.frame_axis = rounded(unit_length_of(in.polygon()) * in.rotation().col(0));
         run.frame_place = rounded(in.translation() - records.origin);
-        records.max_capacity += static_cast<std::uint32_t>(std::ceil(max_points));
+        most += static_cast<std::uint32_t>(std::ceil(max_points));
         // The directions of a query take turns.
         records.block_bytes = std::max<std::uint64_t>(
             records.block_bytes, std::uint64_t{run.blocks} * sizeof(shaders::RecordBlockData));
@@ -182,7 +183,7 @@ void ResidentOutputsBuilder::add_records(const Plan& plan, std::uint32_t query, 
         const std::uint64_t fits = (target->size - sizeof(SummaryData)) / sizeof(PointData);
         room = static_cast<std::uint32_t>(std::min<std::uint64_t>(fits, UINT32_MAX));
     }
-    records.capacity = std::min(room, records.max_capacity);
+    records.capacity = std::min(room, most);
     records.bytes = sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(PointData);
 }
 

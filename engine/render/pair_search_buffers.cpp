@@ -4,7 +4,9 @@
 #include <engine/render/pair_search_buffers.hpp>
 
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace nearfield::render {
 PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const graph::ComputeLayout& layout,
@@ -35,16 +37,6 @@ SearchInput PairSearchBuffers::input() const {
 
 void PairSearchBuffers::lay_out() {
     memory_.lay_out(input(), limits());
-    if (outputs_.is_set()) {
-        std::uint32_t rows = 0;
-        std::uint32_t records = 0;
-        for (std::size_t i = 0; i < memory_.parts(); ++i) {
-            const auto& room = memory_.part(i).input().capacities;
-            rows += room[shaders::row_total];
-            records += room[shaders::record_total];
-        }
-        outputs_.reserve(rows, records);
-    }
     laid_out_world_ = world_.revision();
     is_laid_out_ = true;
 }
@@ -92,6 +84,7 @@ void PairSearchBuffers::write_commands(VkCommandBuffer commands, bool takes_pose
             outputs_.record(i, memory_.part(i).input(), commands, timestamps_);
         }
     }
+    outputs_.record_headers(commands, timestamps_);
 }
 
 /// The commands stay the same as long as the memory does, and where poses come from and results go.
@@ -187,6 +180,30 @@ void PairSearchBuffers::record(VkCommandBuffer commands, const device_input::Sea
     device_->end_label(commands);
     is_for_host_ = true;
     timings.record += start.milliseconds();
+}
+
+void PairSearchBuffers::require_room_of_target() const {
+    const PairTableCounts found = memory_.last_found();
+    PairTableCounts room = found;
+    outputs_.limit(room);
+    if (room == found) {
+        return;
+    }
+    const auto reason = [](const char* what, std::uint32_t count, std::uint32_t fits,
+                           std::uint64_t bytes) {
+        return std::to_string(count) + ' ' + what + ", and room for " + std::to_string(fits) +
+               "; a buffer of " + std::to_string(count * bytes) + " bytes has room for as many";
+    };
+    std::vector<std::string> reasons;
+    if (found.rows > room.rows) {
+        reasons.push_back(reason("pairs", found.rows, room.rows, sizeof(PairData)));
+    }
+    if (found.points > room.points) {
+        reasons.push_back(reason("points", found.points, room.points, sizeof(PointData)));
+    }
+    throw StatusException({StatusCode::overflow,
+                           "the table has all its rows, and the target has room for fewer",
+                           std::move(reasons)});
 }
 
 PairTableCounts PairSearchBuffers::found() const {

@@ -65,7 +65,13 @@ public:
     /// What the last search that has ended found, at any time; nothing while another one that was
     /// begun has not finished, or if recorded commands were not executed yet.
     [[nodiscard]] PairTableCounts found() const;
-    [[nodiscard]] PairTableCounts room() const { return memory_.room(); }
+    [[nodiscard]] PairTableCounts room() const {
+        PairTableCounts room = memory_.room();
+        outputs_.limit(room);
+        return room;
+    }
+    /// Throws StatusException (overflow) if the host's buffers have no room for what was read last.
+    void require_room_of_target() const;
     /// Of the last search nothing is of use.
     void forget_counts() { has_results_ = false; }
 

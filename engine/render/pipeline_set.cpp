@@ -9,7 +9,11 @@
 namespace nearfield::render {
 
 ExportPipelines::ExportPipelines(const gpu::Device& device, const graph::ComputeLayout& layout)
-    : copy_back(device), field(device, layout), records(device, layout), samples(device, layout) {}
+    : copy_back(device),
+      copy_header(device),
+      field(device, layout),
+      records(device, layout),
+      samples(device, layout) {}
 
 const passes::PairSearch& PipelineSet::pair_search(const device_input::PairSearchKind& kind) const {
     const auto found = std::find(device_input::pair_search_kinds.begin(),

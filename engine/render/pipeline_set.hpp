@@ -25,6 +25,7 @@ struct ExportPipelines {
     ExportPipelines(const gpu::Device& device, const graph::ComputeLayout& layout);
 
     passes::CopyBack copy_back;
+    passes::CopyHeader copy_header;
     passes::ExportField field;
     passes::ExportRecords records;
     passes::ExportSamples samples;

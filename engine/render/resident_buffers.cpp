@@ -1,6 +1,7 @@
 #include <engine/base/unique_numbers.hpp>
 #include <engine/gpu/buffer_parts.hpp>
 #include <engine/graph/access.hpp>
+#include <engine/render/host_targets.hpp>
 #include <engine/render/resident_buffers.hpp>
 
 #include <algorithm>
@@ -23,10 +24,6 @@ void reserve(std::vector<graph::BoundResources>& bound, std::size_t count, const
     }
 }
 
-graph::ExternalUse use_of(const TargetState& state) {
-    return {state.stages, state.access, state.layout};
-}
-
 /// An image for the render graph: the host's, or else the library's own. `view`: of either;
 /// `identity`: of the library's. Another image or buffer of the host's may have the handle of one
 /// that is gone, so each time counts as new.
@@ -42,18 +39,7 @@ graph::ImportedImage imported_image(const ImageTarget& target, VkImage own, VkIm
 
 /// Where records or samples lie: in the host's buffer, or else in `own`.
 gpu::BufferPart range_of_target(const BufferTarget& target, const gpu::BufferPart& own) {
-    return target.buffer == VK_NULL_HANDLE
-               ? own
-               : gpu::BufferPart{target.buffer, target.offset, own.bytes, VK_NULL_HANDLE,
-                                 next_revision()};
-}
-
-/// The host's uses of its buffer.
-std::optional<graph::ExternalUses> uses_of(const BufferTarget& target) {
-    if (target.buffer == VK_NULL_HANDLE) {
-        return std::nullopt;
-    }
-    return graph::ExternalUses{use_of(target.before), use_of(target.after)};
+    return target.buffer == VK_NULL_HANDLE ? own : part_of(target, target.offset, own.bytes);
 }
 
 }  // namespace
@@ -188,6 +174,9 @@ void ResidentBuffers::make_resources(const ExportPipelines& passes) {
         reserve(bound_fields_[i], resident_->fields[i].part_count, passes.field.graph, *layout_);
     }
     reserve(bound_records_, resident_->record_runs.size(), passes.records.graph, *layout_);
+    std::size_t headers = 0;
+    for_host_headers([&](const BufferTarget&, const Place&) { ++headers; });
+    reserve(bound_headers_, headers, passes.copy_header.graph, *layout_);
     bound_samples_.resize(std::max(bound_samples_.size(), samples));
     for (std::size_t i = 0; i < samples; ++i) {
         reserve(bound_samples_[i], std::max(resident_->samples[i].run_count, 1U),
@@ -206,6 +195,25 @@ void ResidentBuffers::bind(std::span<const Words> words, const gpu::BufferPart& 
                            const ExportPipelines& passes, graph::DescriptorUpdates& updates) {
     bind_fields(words, passes.field, updates);
     bind_samples(words, none, passes.samples, updates);
+    std::size_t bound = 0;
+    for_host_headers([&](const BufferTarget& target, const Place& place) {
+        graph::BoundResources& resources = bound_headers_[bound++];
+        resources.set(passes.copy_header.header, header_part(place));
+        resources.set(passes.copy_header.target, header_part_of(target), uses_of(target));
+    });
+}
+
+template <class Use>
+void ResidentBuffers::for_host_headers(const Use& use) const {
+    const auto use_those = [&](const auto& outputs, const std::vector<Place>& places) {
+        for (std::size_t i = 0; i < outputs.size(); ++i) {
+            if (outputs[i].target.header_offset) {
+                use(outputs[i].target, places[i]);
+            }
+        }
+    };
+    use_those(resident_->records, places_);
+    use_those(resident_->samples, sample_places_);
 }
 
 void ResidentBuffers::bind_fields(std::span<const Words> words, const passes::ExportField& pass,
@@ -234,7 +242,7 @@ void ResidentBuffers::bind_records(const gpu::BufferPart& shapes, const gpu::Buf
                                    const passes::ExportRecords& passes,
                                    graph::DescriptorUpdates& updates) {
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
-        const device_input::RecordsOutput& records = resident_->records[i];
+        const device_input::BufferOutput& records = resident_->records[i];
         const gpu::BufferPart range = range_of(places_[i], records);
         std::optional<graph::ExternalUses> uses = uses_of(records.target);
         for (std::uint32_t run = 0; run < records.run_count; ++run) {
@@ -279,7 +287,10 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const gpu::Buff
 }
 
 std::size_t ResidentBuffers::count_passes(const ExportPipelines& passes) const {
-    return resident_->fields.size() * passes.field.graph.passes().size() +
+    std::size_t headers = 0;
+    for_host_headers([&](const BufferTarget&, const Place&) { ++headers; });
+    return headers * passes.copy_header.graph.passes().size() +
+           resident_->fields.size() * passes.field.graph.passes().size() +
            resident_->record_runs.size() * passes.records.graph.passes().size() +
            resident_->samples.size() * passes.samples.graph.passes().size();
 }
@@ -287,7 +298,7 @@ std::size_t ResidentBuffers::count_passes(const ExportPipelines& passes) const {
 void ResidentBuffers::record_records(const shaders::SearchPush& part,
                                      const passes::ExportRecords& passes, VkCommandBuffer commands,
                                      gpu::Timestamps& timestamps) const {
-    for (const device_input::RecordsOutput& records : resident_->records) {
+    for (const device_input::BufferOutput& records : resident_->records) {
         for (std::uint32_t i = records.first_run; i < records.first_run + records.run_count; ++i) {
             const device_input::RecordRunOutput& run = resident_->record_runs[i];
             if (run.direction < part.first_instance || run.direction >= part.end_instance) {
@@ -326,6 +337,10 @@ void ResidentBuffers::record(const ExportPipelines& passes, VkCommandBuffer comm
                     std::span(resident_->sample_runs).subspan(samples.first_run, samples.run_count),
                     resident_->sample_tiles, bound_samples_[i]});
     }
+    std::size_t bound = 0;
+    for_host_headers([&](const BufferTarget&, const Place&) {
+        passes.copy_header.graph.execute(commands, timestamps, bound_headers_[bound++], {});
+    });
 }
 
 OutputState ResidentBuffers::state(graph::Access access) const {
@@ -374,15 +389,17 @@ FieldOnDevice ResidentBuffers::field(std::size_t i) const {
 }
 
 PointsOnDevice ResidentBuffers::records(std::size_t i) const {
-    const device_input::RecordsOutput& records = resident_->records[i];
+    const device_input::BufferOutput& records = resident_->records[i];
     const gpu::BufferPart range = range_of(places_[i], records);
-    const std::uint64_t max_size =
-        sizeof(SummaryData) + std::uint64_t{records.max_capacity} * sizeof(PointData);
-    return {range.buffer,          range.offset,
-            range.bytes,           max_size,
-            records.capacity,      geometry::to_public(records.origin),
-            records.error_bound,   state(records.target),
-            header_at(places_[i]), slot()};
+    return {range.buffer,
+            range.offset,
+            range.bytes,
+            records.capacity,
+            geometry::to_public(records.origin),
+            records.error_bound,
+            state(records.target),
+            header_at(places_[i], records.target),
+            slot()};
 }
 
 SamplesOnDevice ResidentBuffers::samples(std::size_t i) const {
@@ -396,7 +413,7 @@ SamplesOnDevice ResidentBuffers::samples(std::size_t i) const {
             samples.cell,
             samples.error_bound,
             state(samples.target),
-            header_at(sample_places_[i]),
+            header_at(sample_places_[i], samples.target),
             slot()};
 }
 

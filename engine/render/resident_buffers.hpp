@@ -89,9 +89,14 @@ private:
     [[nodiscard]] gpu::BufferPart header_part(const Place& place) const {
         return records_.part(place.header, shaders::bytes_of_header + place.block_bytes);
     }
-    [[nodiscard]] HeaderOnDevice header_at(const Place& place) const {
-        return {records_.handle(), place.header};
+    [[nodiscard]] HeaderOnDevice header_at(const Place& place,
+                                           const BufferTarget& target = {}) const {
+        return target.header_offset ? HeaderOnDevice{target.buffer, *target.header_offset}
+                                    : HeaderOnDevice{records_.handle(), place.header};
     }
+    /// Calls `use(target, place)` for each header that the host has a place for.
+    template <class Use>
+    void for_host_headers(const Use& use) const;
     [[nodiscard]] OutputSlot slot() const { return {0, revision_}; }
     void upload_tables();
     void make_resources(const ExportPipelines& passes);
@@ -124,6 +129,7 @@ private:
     std::vector<Bound> bound_fields_;   // by field and part
     Bound bound_records_;               // by run
     std::vector<Bound> bound_samples_;  // by samples and run, at least one
+    Bound bound_headers_;               // of the host, in the order of for_host_headers()
 };
 
 }  // namespace nearfield::render

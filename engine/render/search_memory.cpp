@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace nearfield::render {
 namespace {
@@ -286,6 +287,10 @@ PairTableCounts SearchMemory::found() const {
         all = sum(all, own);
     }
     return table_counts(all);
+}
+
+PairTableCounts SearchMemory::last_found() const {
+    return table_counts(std::accumulate(counts_.begin(), counts_.end(), PairCounts{}, sum));
 }
 
 PairTableCounts SearchMemory::room() const {

@@ -168,6 +168,8 @@ public:
     [[nodiscard]] bool had_room(double headroom = 1.0) const;
     /// What the device has counted last, of all parts; zeros if it has not executed one of them.
     [[nodiscard]] PairTableCounts found() const;
+    /// The same of what was read last.
+    [[nodiscard]] PairTableCounts last_found() const;
     /// What there is room for, of all parts.
     [[nodiscard]] PairTableCounts room() const;
     /// Throws StatusException (overflow) without.

@@ -156,7 +156,7 @@ void DevicePairs::decide() {
     timings_.decode = start.milliseconds();
 }
 
-void DevicePairs::start(const char* call, const WorldView& world, const DevicePoses* poses,
+void DevicePairs::start(const char* call, const WorldView& world, const PairTableInput& input,
                         const Recording* recording) {
     const Stopwatch total;
     set_submitted(false);
@@ -168,8 +168,11 @@ void DevicePairs::start(const char* call, const WorldView& world, const DevicePo
         context_ = world.context.shared_from_this();
         world_ = world.identity;
     }
-    set_poses(poses);
+    set_poses(input.poses);
     check(call);
+    if (input.target != nullptr) {
+        check_target(call, *input.target);
+    }
     rows_ = 0;
     decided_.clear();
     dropped_rows_.clear();
@@ -193,7 +196,7 @@ void DevicePairs::start(const char* call, const WorldView& world, const DevicePo
     if (instances_.size() > 1) {
         order_instances(instances);
         if (exports != nullptr) {
-            buffers_->outputs().set(*exports, instances_.origin());
+            buffers_->outputs().set(*exports, instances_.origin(), input.target);
         }
         timings_.plan = total.milliseconds() - pipelines;
         renderer.note_pairs(question_.kind(), poses_.has_value(), question_.on_device);
@@ -275,6 +278,23 @@ void DevicePairs::find_poses(const char* call) {
         buffers_->poses().set(context_->renderer()->pair_poses(), *poses_, instances_.end_index(),
                               farthest);
     }
+}
+
+void DevicePairs::check_target(const char* call, const PairTarget& target) const {
+    const Status status = device_input::check_pair_target(
+        target, context_->device()->limits().minStorageBufferOffsetAlignment);
+    if (!status.ok()) {
+        refuse(call, status.message());
+    }
+}
+
+void DevicePairs::require_room_of_target() {
+    if (buffers_ == nullptr || instances_.size() < 2) {
+        return;
+    }
+    lacks_room_ = true;
+    buffers_->require_room_of_target();
+    lacks_room_ = false;
 }
 
 void DevicePairs::require_usable_poses() {
@@ -410,6 +430,7 @@ void DevicePairs::collect_recorded() {
         lacks_room_ = status.code() == StatusCode::overflow;
         throw StatusException(status);
     }
+    require_room_of_target();
 }
 
 bool DevicePairs::is_recorded(const WorldView& world) const {

@@ -35,15 +35,17 @@ public:
     DevicePairs& operator=(const DevicePairs&) = delete;
 
     /// Lets the device begin, or records what it does into commands of the host, which submits them
-    /// as many times as it calls collect_recorded(). `call`: for messages. `poses`: of the host;
-    /// null: the instances' own.
-    void start(const char* call, const WorldView& world, const DevicePoses* poses,
+    /// as many times as it calls collect_recorded(). `call`: for messages. `input`: where poses
+    /// come from and results go, if that is the host's.
+    void start(const char* call, const WorldView& world, const PairTableInput& input,
                const Recording* recording);
     /// Waits, and makes the rows of what was started.
     void finish();
     /// The same of what was recorded; what uses it stays whatever happens.
     void collect_recorded();
     void start_anew();
+    /// Throws if what was collected last does not all fit the host's buffers; rows are there.
+    void require_room_of_target();
     /// Throws unless it may be started again.
     void require_collected(const char* call) const;
     /// Throws unless the frame that it was recorded for, if it was, is complete.
@@ -92,6 +94,7 @@ private:
     void set_poses(const DevicePoses* poses);
     /// Says where the device finds the host's poses. `call`: for messages.
     void find_poses(const char* call);
+    void check_target(const char* call, const PairTarget& target) const;
     /// What the device has found out about a pair; the poses of both instances are taken.
     [[nodiscard]] shaders::PairRowData pair_of(std::uint32_t device_row);
     void take_pose(std::uint32_t number);

@@ -262,9 +262,7 @@ static void require_for_device(const char* call, const AnyQuery& query,
     const auto* const contacts = std::get_if<ContactQuery>(&query);
     if ((penetration != nullptr && penetration->target != nullptr) ||
         (contacts != nullptr && contacts->target != nullptr)) {
-        refuse(call,
-               "the device has these results in memory of its own; the table's query names a "
-               "target");
+        refuse(call, "the table's query names a target; that of a table is PairTableInput::target");
     }
 }
 
@@ -322,6 +320,11 @@ void PairTableBase::State::choose(const char* call, const WorldView& world,
         !(input.moving.empty() && input.ends.empty())) {
         refuse(call, "motions are given to a table that asks for no times of impact");
     }
+    if (input.target != nullptr && !table::is_on_device(query)) {
+        refuse(call,
+               "a target is given to a table whose query leaves nothing on the device "
+               "(PenetrationQuery::on_device)");
+    }
     const bool needs_device = is_recorded || input.poses != nullptr || table::is_on_device(query);
     Technique technique = table::asked_technique(call, query, options);
     if (technique == Technique::automatic) {
@@ -358,7 +361,7 @@ void PairTableBase::State::begin(const char* call, const WorldView& world,
     read_status = {};
     forget_exact_rows();
     if (device != nullptr) {
-        device->start(call, world, input.poses, recording);
+        device->start(call, world, input, recording);
         return;
     }
     const Stopwatch total;
@@ -384,6 +387,9 @@ void PairTableBase::State::finish() {
         }
         is_submitted = false;
     });
+    if (device != nullptr) {
+        device->require_room_of_target();
+    }
 }
 
 void PairTableBase::State::collect() {

@@ -357,11 +357,26 @@ public:
     ///     image = grid ? make_image(grid->width, grid->height) : VK_NULL_HANDLE;
     [[nodiscard]] Expected<FieldGrid> field_grid(const DistanceFieldQuery& query) const;
 
+    /// Bytes of a BufferTarget in which a query with `on_device` has space: for points all along
+    /// the boundaries that it examines (of penetration A's, of contacts A's and B's), so it
+    /// suffices at any poses until the rings of a shape are replaced. Makes, plans and reserves
+    /// nothing. Fails where the query is invalid, names no shape, or is answered by no device of
+    /// this context.
+    ///
+    ///     const auto size = context.target_size(query);
+    ///     buffer = size ? make_buffer(*size) : VK_NULL_HANDLE;
+    [[nodiscard]] Expected<std::uint64_t> target_size(const PenetrationQuery& query) const;
+    /// The same of contacts.
+    [[nodiscard]] Expected<std::uint64_t> target_size(const ContactQuery& query) const;
+    /// Of an intersection at the query's poses: exactly SamplesOnDevice::size, for a sample in
+    /// every cell of every region. Otherwise the same.
+    [[nodiscard]] Expected<std::uint64_t> target_size(const IntersectionQuery& query) const;
+
     /// What on_device() will return for a query of a batch like this one: one entry for each of
     /// Settings::batches_in_flight, at the position OutputSlot::index. Reserves memory in all of
     /// them, so that a host can write its descriptor sets before the first frame. The handles stay
     /// valid as long as OutputSlot::revision stays the same. Plans the batch once for each entry,
-    /// and records nothing. Sizes are those at the poses of the batch; PointsOnDevice::max_size
+    /// and records nothing. Sizes are those at the poses of the batch; target_size() of points
     /// holds for all.
     ///
     /// Fails with not_ready if a batch is in flight, and as submit() and on_device() do.

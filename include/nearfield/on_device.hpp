@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 /// \file
 /// Outputs on the device: results that stay on the device (Context::on_device()), for the host's
@@ -91,10 +92,16 @@ struct FieldTarget {
     ImageTarget feature = {};          ///< VK_FORMAT_R32_UINT
 };
 
-/// Where points on the device or samples go (PenetrationQuery::target and others): a range of a
-/// buffer of the host's, on the context's device. Only as much is written as on_device() states.
-/// The header stays nearfield's own; it and the query's result (StatusCode::overflow) tell of more
-/// points than there is space for. Borrowed until the batch is collected; nothing is kept of it.
+/// Where points on the device or samples go (PenetrationQuery::target and others), and the arrays
+/// of a PairTable (PairTarget): a range of a buffer of the host's, on the context's device. Only as
+/// much is written as on_device() states. The header and the query's result (StatusCode::overflow)
+/// tell of more than there is space for. Context::target_size() is a size that is never too small.
+/// Borrowed until the batch is collected; nothing is kept of it.
+///
+///     const auto size = context.target_size(query);
+///     const nearfield::BufferTarget target{.buffer = buffer, .offset = 256, .size = *size,
+///                                          .usage = usage_of_buffer, .header_offset = 0};
+///     query.target = &target;
 struct BufferTarget {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< not null
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
@@ -102,15 +109,23 @@ struct BufferTarget {
     VkBufferUsageFlags usage = 0;      ///< as created; contains VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
     TargetState before = former_readers;  ///< its layout is ignored
     TargetState after = read_by_shaders;  ///< its layout is ignored
+    /// Where the header goes in the same buffer, outside the range: sizeof(HeaderData) bytes from
+    /// this multiple of 4 on. `usage` then contains VK_BUFFER_USAGE_TRANSFER_DST_BIT, and `before`
+    /// and `after` hold for the header, too. Without a value the header is nearfield's own.
+    std::optional<VkDeviceSize> header_offset = std::nullopt;
+
+    /// True if all members are equal.
+    friend bool operator==(const BufferTarget&, const BufferTarget&) = default;
 };
 
 /// Where the header of an output on the device lies (HeaderData): what there is, for shaders, and
 /// the arguments of vkCmdDrawIndirect and vkCmdDispatchIndirect, written by the device. The buffer
 /// may be bound as a storage, indirect or vertex buffer, and copied from. Its state is the one that
-/// OutputState describes for buffers, also where the output itself goes to the host's buffer.
+/// OutputState describes for buffers, also where the output itself goes to the host's buffer; or
+/// the target's `after` where the header goes there, too (BufferTarget::header_offset).
 struct HeaderOnDevice {
-    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed
-    VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
+    VkDeviceSize offset = 0;  ///< a multiple of minStorageBufferOffsetAlignment, or the host's
 };
 
 /// Identifies a set of a context's handles of results on the device. A host that writes descriptor
@@ -184,13 +199,9 @@ struct FieldOnDevice {
 struct PointsOnDevice {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
-    VkDeviceSize size = 0;             ///< of the range, in bytes
-    /// Upper bound of `size` for the same query at any poses, in bytes: for points all along the
-    /// boundaries that it examines (of penetration A's, of contacts A's and B's). A buffer of the
-    /// host's that large is never too small, until the rings of a shape are replaced.
-    VkDeviceSize max_size = 0;
-    std::uint32_t capacity = 0;  ///< maximum number of points
-    Vector2 origin;              ///< of all positions, world coordinates
+    VkDeviceSize size = 0;             ///< of the range, in bytes; at most Context::target_size()
+    std::uint32_t capacity = 0;        ///< maximum number of points
+    Vector2 origin;                    ///< of all positions, world coordinates
     /// Error bound of every coordinate, distance and depth of the points and the summary, world
     /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
     /// is larger, where the point is neither touching nor undecided.

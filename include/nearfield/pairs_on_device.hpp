@@ -14,15 +14,37 @@
 
 namespace nearfield {
 
-/// One of the arrays of PairsOnDevice, from the start of a buffer on. The buffer may be bound as a
-/// storage, vertex or indirect buffer, and copied from.
+/// Where the results on the device of a PairTable go (PairTableInput::target), in place of
+/// nearfield's own buffers. It has space for `size / sizeof(PairData)` pairs and
+/// `size / sizeof(PointData)` points, of as many parts of a storage buffer as the device's shaders
+/// reach; PairTable::found() of an earlier search tells how many there are.
+///
+/// Borrowed, as DevicePoses: the buffers must exist until the table is submitted, updated or
+/// recorded with another target or none, or is destroyed.
+///
+///     const nearfield::PairTarget target{
+///         .pairs = {.buffer = rows, .size = 4096 * sizeof(nearfield::PairData), .usage = usage},
+///         .points = {.buffer = points, .size = points_size, .usage = usage}};
+///     world.submit(table, {.target = &target});
+struct PairTarget {
+    BufferTarget pairs;   ///< of PairData; space for one at least
+    BufferTarget points;  ///< of PointData; space for one at least
+
+    /// True if all members are equal.
+    friend bool operator==(const PairTarget&, const PairTarget&) = default;
+};
+
+/// One of the arrays of PairsOnDevice. A buffer of nearfield's own may be bound as a storage,
+/// vertex or indirect buffer, and copied from.
 struct ArrayOnDevice {
-    VkBuffer buffer = VK_NULL_HANDLE;  ///< borrowed
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< borrowed. Or the host's
+    VkDeviceSize offset = 0;           ///< of the array: 0, or the target's
     VkDeviceSize size = 0;             ///< of the array, in bytes
     std::uint32_t capacity = 0;        ///< maximum number of elements
     /// The number of elements. `overflow` is 1 if the memory was too small for the pairs, so that
     /// rows and points are missing. PairTable::collect() then grows the memory and searches again;
-    /// for recorded commands the next World::record() grows it.
+    /// for recorded commands the next World::record() grows it. It is also 1 if a target is too
+    /// small; then the first pairs and points are there, and no pair names a point that is not.
     HeaderOnDevice header;
 };
 
@@ -47,10 +69,12 @@ struct ArrayOnDevice {
 /// Where pairs of contacts are searched in parts (PairTable), a point may be listed twice; a pair
 /// names one.
 struct PairsOnDevice {
-    ArrayOnDevice pairs;         ///< of PairData
-    ArrayOnDevice points;        ///< of PointData
-    Vector2 origin;              ///< of all positions, world coordinates
-    OutputState state;           ///< once the device has executed the search
+    ArrayOnDevice pairs;   ///< of PairData
+    ArrayOnDevice points;  ///< of PointData
+    Vector2 origin;        ///< of all positions, world coordinates
+    /// Once the device has executed the search, of nearfield's own buffers; those of a target are
+    /// as its `after` states.
+    OutputState state;
     std::uint64_t revision = 0;  ///< changes whenever a handle or a size does
 };
 

@@ -102,7 +102,8 @@ public:
     /// first search, from World::submit() until collect(), and from World::record() until the
     /// device has executed the commands.
     [[nodiscard]] PairTableCounts found() const noexcept;
-    /// By Technique::compute, the numbers that there is room for on the device.
+    /// By Technique::compute, the numbers that there is room for on the device; of rows and points
+    /// at most those that a target (PairTarget) has space for.
     [[nodiscard]] PairTableCounts capacity() const noexcept;
     /// Frees all memory of the device, and drops the rows. The next search has memory for twice
     /// what the last one found. Does nothing from World::submit() until collect(), and until the
@@ -118,11 +119,14 @@ public:
     /// search is submitted and waited for again. By Technique::cpu the pairs have been answered
     /// already. Fails with not_ready if nothing was submitted; otherwise as World::update().
     ///
+    /// If a target (PairTarget) is too small, it fails with overflow, and the table has all its
+    /// rows nevertheless.
+    ///
     /// After World::record() it neither submits nor waits, and may be called again (PairTable). It
     /// fails with not_ready if the frame is not complete, with not_executed if the device has not
     /// executed the commands, and with overflow if the memory was too small for all pairs; the
-    /// reasons then name what exceeded it. The table has no rows after an error, and the recorded
-    /// commands stay valid.
+    /// reasons then name what exceeded it. The table has no rows after such an error, and the
+    /// recorded commands stay valid.
     Status collect(const Limits& limits = {});
     /// True if collect() would not wait for what World::submit() began, or if the frame of
     /// World::record() is complete; never waits. Also true once the device is lost. False if
@@ -235,7 +239,8 @@ public:
 
     /// A table without rows. The query's `a` and `b` are ignored, and so are the end poses of a
     /// time of impact. Its technique is that of the options, or automatic. World::update() rejects
-    /// targets (PenetrationQuery::target).
+    /// targets of the query (PenetrationQuery::target); those of a table are
+    /// PairTableInput::target.
     explicit PairTable(const Query& query, const PairTableOptions& options = {});
 
     /// The query, as it was given.

@@ -17,6 +17,7 @@
 namespace nearfield {
 
 struct DevicePoses;
+struct PairTarget;
 
 /// Names an instance of one world. The default value names none. A handle of another world, or of
 /// an instance that was removed, is refused (unknown_instance).
@@ -226,6 +227,10 @@ struct PairTableInput {
     /// device (device_poses.hpp). The world's own poses are then neither used nor changed. Null:
     /// the world's own poses count.
     const DevicePoses* poses = nullptr;
+    /// Of a query with `on_device`: the host's buffers that results on the device go to
+    /// (pairs_on_device.hpp). Null: nearfield's own. One that cannot be written is refused
+    /// (invalid_query).
+    const PairTarget* target = nullptr;
 };
 
 }  // namespace nearfield

@@ -28,7 +28,8 @@ enum class Way {
     at_once,
     by_halves,  ///< submitted, and then collected
     on_device,  ///< at once, at poses in a buffer of the host's; results stay there too
-    recorded,   ///< likewise, into a command buffer of the host, which submits it
+    recorded,   ///< likewise, into a command buffer of the host, which submits it; results and
+                ///< their headers go to buffers of the host
     in_parts,   ///< at once, on a device whose shaders do not reach the memory for all pairs
 };
 
@@ -44,6 +45,14 @@ public:
         poses_.buffer = driver().make_buffer();
         poses_.size = 1U << 20U;
         poses_.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+        for (BufferTarget* const target : {&target_.pairs, &target_.points}) {
+            *target = {
+                .buffer = driver().make_buffer(1024 + (1U << 19U)),
+                .offset = 1024,
+                .size = 1U << 19U,
+                .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                .header_offset = 4};
+        }
     }
 
     [[nodiscard]] Status submit() override { return world().submit(table_); }
@@ -75,8 +84,10 @@ public:
         if (!are_resident()) {
             return;
         }
+        EXPECT_EQ(resident->pairs.buffer == target_.pairs.buffer, way_ == Way::recorded);
+        EXPECT_EQ(resident->points.header.offset == 4, way_ == Way::recorded);
         for (const ArrayOnDevice& array : {resident->pairs, resident->points}) {
-            EXPECT_TRUE(driver().has_memory(array.buffer, 0, array.size));
+            EXPECT_TRUE(driver().has_memory(array.buffer, array.offset, array.size));
             EXPECT_TRUE(
                 driver().has_memory(array.header.buffer, array.header.offset, sizeof(HeaderData)));
         }
@@ -91,8 +102,8 @@ private:
     /// A frame of the host.
     Status record() {
         const VkCommandBuffer commands = driver().begin_commands();
-        Status status =
-            world().record(table_, {.commands = commands, .frame = ++frame_}, at_poses(poses_));
+        Status status = world().record(table_, {.commands = commands, .frame = ++frame_},
+                                       {.poses = &poses_, .target = &target_});
         if (!status.ok()) {
             return status;
         }
@@ -105,6 +116,7 @@ private:
     Way way_;
     PairTable<PenetrationQuery> table_;
     DevicePoses poses_;
+    PairTarget target_;
     std::uint64_t frame_ = 1000;  // others are before
 };
 

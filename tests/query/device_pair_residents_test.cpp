@@ -1,4 +1,5 @@
 #include <tests/query/device_pairs.hpp>
+#include <tests/query/host_targets.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -149,7 +150,8 @@ protected:
         }
     }
 
-    std::uint32_t rows_ = 0;  // that were compared
+    static inline std::uint64_t frame_ = 1000;  // of the context, which tests share
+    std::uint32_t rows_ = 0;                    // that were compared
     std::uint32_t records_ = 0;
     std::uint32_t normals_ = 0;
 };
@@ -245,6 +247,221 @@ TEST_F(DevicePairResidents, OfATableThatStartsAnewHaveAnotherRevision) {
             EXPECT_TRUE(revisions.insert(table.on_device()->revision).second);
         }
     }
+}
+
+/// Two buffers of the host.
+struct HostPairs {
+    HostPairs(test_support::HostGpu& gpu, std::uint64_t rows, std::uint64_t records,
+              bool has_headers)
+        : pairs(gpu, rows * sizeof(PairData), has_headers),
+          points(gpu, records * sizeof(PointData), has_headers) {}
+
+    [[nodiscard]] PairTarget target() const { return {pairs.target(), points.target()}; }
+    void fill(VkCommandBuffer commands) const {
+        pairs.fill(commands);
+        points.fill(commands);
+    }
+    void use(VkCommandBuffer commands) const {
+        pairs.use(commands);
+        points.use(commands);
+    }
+
+    HostBuffer pairs;
+    HostBuffer points;
+};
+
+std::vector<std::uint32_t> words_of(const void* data, std::size_t bytes) {
+    std::vector<std::uint32_t> words(bytes / sizeof(std::uint32_t));
+    std::memcpy(words.data(), data, words.size() * sizeof(std::uint32_t));
+    return words;
+}
+
+/// The buffer has these first elements in its range, the header where there is one, and elsewhere
+/// what the host has written.
+template <class Data>
+void expect_in(const HostBuffer& buffer, const std::vector<Data>& all, const HeaderData& header) {
+    std::vector<std::uint32_t> expected = buffer.words();
+    const std::vector<std::uint32_t> words = expected;
+    std::fill(expected.begin(), expected.end(), HostBuffer::pattern);
+    const auto put = [&](std::uint64_t offset, const std::vector<std::uint32_t>& part) {
+        std::copy(part.begin(), part.end(),
+                  expected.begin() + static_cast<std::ptrdiff_t>(offset / sizeof(std::uint32_t)));
+    };
+    put(buffer.target().offset, words_of(all.data(), all.size() * sizeof(Data)));
+    if (buffer.target().header_offset) {
+        put(*buffer.target().header_offset, words_of(&header, sizeof(header)));
+    }
+    EXPECT_TRUE(words == expected);
+}
+
+/// All within a command buffer, whose hazards the validation layers see.
+TEST_F(DevicePairResidents, GoToBuffersOfTheHost) {
+    Random random(device_pair_residents_seed + 1);
+    const ShapeHandle shape = add_shape(star(random, 12, 0.6));
+    for (int i = 0; i < 30; ++i) {
+        add(shape, any_pose(random, 2.0));
+    }
+    const ContactQuery query{.tolerance = 0.02, .contact_distance = 0.05, .on_device = true};
+    PairTable own(query, on_device);
+    ASSERT_TRUE(world().update(own).ok());
+    const PairContents all = read(*own.on_device());
+    ASSERT_GT(all.pairs.size(), 100U);
+    ASSERT_GT(all.points.size(), 500U);
+    PairTable table(query, on_device);
+    std::set<std::uint64_t> revisions;
+    for (const bool has_headers : {true, false, true}) {
+        const HostPairs host(gpu(), all.pairs.size() + 7, all.points.size() + 9, has_headers);
+        const PairTarget target = host.target();
+        PairsOnDevice left;
+        gpu().submit([&](VkCommandBuffer commands) {
+            host.fill(commands);
+            ASSERT_TRUE(
+                world()
+                    .record(table, {.commands = commands, .frame = ++frame_}, {.target = &target})
+                    .ok());
+            left = *table.on_device();
+            host.use(commands);
+        });
+        gpu().finish();
+        context().frame_completed(frame_);
+        const Status status = table.collect();
+        ASSERT_TRUE(status.ok()) << status.text();
+        EXPECT_EQ(numbers_of_table(table), numbers_of_table(own));
+        expect_in(host.pairs, all.pairs, all.pair_header);
+        expect_in(host.points, all.points, all.point_header);
+        EXPECT_EQ(left.pairs.buffer, target.pairs.buffer);
+        EXPECT_EQ(left.points.offset, target.points.offset);
+        EXPECT_EQ(left.pairs.capacity, all.pairs.size() + 7);
+        EXPECT_EQ(left.pairs.header.buffer == target.pairs.buffer, has_headers);
+        EXPECT_TRUE(revisions.insert(left.revision).second);
+        if (!has_headers) {
+            const auto header = gpu().read(left.points.header.buffer, left.points.header.offset,
+                                           sizeof(HeaderData), left.state);
+            EXPECT_EQ(header, words_of(&all.point_header, sizeof(HeaderData)));
+        }
+        // Without a target they are nearfield's own again, also of a table that searches itself.
+        ASSERT_TRUE(
+            world()
+                .submit(table, has_headers ? PairTableInput{.target = &target} : PairTableInput{})
+                .ok());
+        ASSERT_TRUE(table.collect().ok());
+        EXPECT_EQ(table.on_device()->pairs.buffer == target.pairs.buffer, has_headers);
+        EXPECT_TRUE(revisions.insert(table.on_device()->revision).second || has_headers);
+        if (!has_headers) {
+            EXPECT_EQ(read(*table.on_device()).points.size(), all.points.size());
+        }
+    }
+}
+
+/// A target that is too small has what fits, and says so; the rows of the table are all there.
+TEST_F(DevicePairResidents, ThatDoNotFitBuffersOfTheHostAreCutOff) {
+    Random random(device_pair_residents_seed + 2);
+    const ShapeHandle shape = add_shape(star(random, 12, 0.6));
+    for (int i = 0; i < 30; ++i) {
+        add(shape, any_pose(random, 2.0));
+    }
+    const PenetrationQuery query{.tolerance = 0.02, .on_device = true};
+    PairTable own(query, on_device);
+    ASSERT_TRUE(world().update(own).ok());
+    const PairContents all = read(*own.on_device());
+    const auto rows = static_cast<std::uint32_t>(all.pairs.size());
+    const auto records = static_cast<std::uint32_t>(all.points.size());
+    ASSERT_GT(rows, 100U);
+    ASSERT_GT(records, 500U);
+    PairTable table(query, on_device);
+    ASSERT_TRUE(world().update(table).ok());  // has room for all now
+    for (const auto& [pairs, points] :
+         {std::pair{rows - 1, records}, std::pair{rows, records - 1}, std::pair{rows / 2, 1U},
+          std::pair{1U, records / 2}, std::pair{rows, records}}) {
+        SCOPED_TRACE(std::to_string(pairs) + " pairs, " + std::to_string(points) + " points");
+        const bool fits = pairs == rows && points == records;
+        const HostPairs host(gpu(), pairs, points, true);
+        const PairTarget target = host.target();
+        gpu().submit([&](VkCommandBuffer commands) {
+            host.fill(commands);
+            ASSERT_TRUE(
+                world()
+                    .record(table, {.commands = commands, .frame = ++frame_}, {.target = &target})
+                    .ok());
+            host.use(commands);
+        });
+        gpu().finish();
+        context().frame_completed(frame_);
+        for (int i = 0; i < 2; ++i) {
+            const Status status = table.collect();
+            EXPECT_EQ(status.code(), fits ? StatusCode::ok : StatusCode::overflow) << status.text();
+            EXPECT_EQ(numbers_of_table(table), numbers_of_table(own));
+            EXPECT_EQ(table.found().rows, rows);
+            EXPECT_EQ(table.capacity().rows, pairs);
+            EXPECT_EQ(table.capacity().points, points);
+            EXPECT_EQ(world().is_recorded(table), fits);
+        }
+        PairContents cut = all;
+        cut.pairs.resize(pairs);
+        cut.points.resize(points);
+        for (PairData& pair : cut.pairs) {
+            const std::uint32_t left = points - std::min(points, pair.first_point);
+            pair.point_count = std::min(pair.point_count, left);
+            if (pair.deepest != no_point && pair.deepest >= points) {
+                pair.deepest = no_point;
+                pair.depth = 0.0F;
+            }
+        }
+        const auto header_of = [fits](HeaderData header, std::uint32_t count) {
+            header.count = header.points.vertexCount = header.quads.instanceCount = count;
+            header.groups.x = (count + 63) / 64;
+            header.overflow = fits ? 0 : 1;
+            return header;
+        };
+        expect_in(host.pairs, cut.pairs, header_of(all.pair_header, pairs));
+        expect_in(host.points, cut.points, header_of(all.point_header, points));
+        const Status status = world().update(table, {.target = &target});
+        EXPECT_EQ(status.code(), fits ? StatusCode::ok : StatusCode::overflow) << status.text();
+        EXPECT_EQ(numbers_of_table(table), numbers_of_table(own));
+        if (!fits) {
+            ASSERT_EQ(status.reasons().size(),
+                      (pairs < rows ? 1U : 0U) + (points < records ? 1U : 0U));
+            const std::size_t needed =
+                points < records ? records * sizeof(PointData) : rows * sizeof(PairData);
+            EXPECT_NE(status.reasons().back().find(std::to_string(needed)), std::string::npos)
+                << status.text();
+        }
+    }
+}
+
+TEST_F(DevicePairResidents, DoNotGoToBadBuffers) {
+    const ShapeHandle square = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    add(square, {});
+    add(square, {.translation = {0.5, 0.0}});
+    const HostPairs host(gpu(), 64, 1024, true);
+    PairTable table(PenetrationQuery{.tolerance = 0.05, .on_device = true}, on_device);
+    const auto refuse = [&](const std::string& words, const auto& spoil) {
+        PairTarget target = host.target();
+        spoil(target);
+        const Status status = world().update(table, {.target = &target});
+        EXPECT_EQ(status.code(), StatusCode::invalid_query) << words;
+        EXPECT_NE(status.message().find("update: "), std::string::npos) << status.text();
+        EXPECT_NE(status.message().find(words), std::string::npos) << status.text();
+    };
+    refuse("buffer of pairs is null", [](auto& target) { target.pairs.buffer = VK_NULL_HANDLE; });
+    refuse("buffer of points is null", [](auto& target) { target.points.buffer = VK_NULL_HANDLE; });
+    refuse("the first point may take 40", [](auto& target) { target.points.size = 39; });
+    refuse("lacks VK_BUFFER_USAGE_STORAGE_BUFFER_BIT",
+           [](auto& target) { target.pairs.usage = 2; });
+    refuse("lacks VK_BUFFER_USAGE_TRANSFER_DST_BIT",
+           [](auto& target) { target.points.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; });
+    refuse("has bytes in common with that of pairs",
+           [](auto& target) { target.points = target.pairs; });
+    const PairTarget target = host.target();
+    PairTable not_left(PenetrationQuery{.tolerance = 0.05}, on_device);
+    PairTable by_cpu(PenetrationQuery{.tolerance = 0.05}, on_cpu);
+    for (PairTable<PenetrationQuery>* const other : {&not_left, &by_cpu}) {
+        const Status status = world().update(*other, {.target = &target});
+        EXPECT_EQ(status.code(), StatusCode::invalid_query);
+        EXPECT_NE(status.message().find("leaves nothing on the device"), std::string::npos);
+    }
+    EXPECT_TRUE(world().update(table, {.target = &target}).ok());
+    EXPECT_EQ(table.size(), 2U);
 }
 
 TEST_F(DevicePairResidents, OfNothingHaveACountOfZero) {

@@ -306,7 +306,7 @@ private:
         EXPECT_EQ(array.size, array.capacity * sizeof(Data));
         all.resize(std::min(header.count, array.capacity));
         if (!all.empty()) {
-            copy(array.buffer, 0, all.data(), all.size() * sizeof(Data));
+            copy(array.buffer, array.offset, all.data(), all.size() * sizeof(Data));
         }
         return header;
     }

@@ -19,6 +19,7 @@ constexpr std::uint32_t levels = 2;
 constexpr std::uint32_t layers = 3;
 // A multiple of every minStorageBufferOffsetAlignment that Vulkan allows.
 constexpr std::uint64_t offset_in_buffer = 1024;
+constexpr std::uint64_t offset_of_header = 516;
 
 void show_to_the_host(const HostGpu& gpu, VkCommandBuffer commands) {
     VkMemoryBarrier barrier{};
@@ -100,7 +101,10 @@ std::vector<std::uint32_t> HostImage::words() const {
     return words_in(copied_, std::uint64_t{4} * extent_.width * extent_.height);
 }
 
-HostBuffer::HostBuffer(HostGpu& gpu, std::uint64_t bytes) : gpu_(&gpu) {
+HostBuffer::HostBuffer(HostGpu& gpu, std::uint64_t bytes, bool has_header) : gpu_(&gpu) {
+    if (has_header) {
+        target_.header_offset = offset_of_header;
+    }
     target_.offset = offset_in_buffer;
     target_.size = bytes;
     target_.usage = buffer_usage;

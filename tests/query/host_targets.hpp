@@ -37,10 +37,11 @@ private:
     test_support::HostGpu::Buffer copied_;
 };
 
-/// A buffer of the host, of which a range in the middle is to be written; used like a HostImage.
+/// A buffer of the host, of which a range in the middle is to be written, and a header before it if
+/// `has_header`; used like a HostImage.
 class HostBuffer {
 public:
-    HostBuffer(test_support::HostGpu& gpu, std::uint64_t bytes);
+    HostBuffer(test_support::HostGpu& gpu, std::uint64_t bytes, bool has_header = false);
 
     [[nodiscard]] const BufferTarget& target() const { return target_; }
     void fill(VkCommandBuffer commands) const;

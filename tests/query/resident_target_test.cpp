@@ -98,7 +98,7 @@ protected:
     }
 
     template <class Query>
-    void expect_same_in_buffer(const Query& query, std::size_t words_of_record);
+    void expect_same_in_buffer(const Query& query, std::size_t words_of_record, bool has_header);
 
 private:
     std::optional<HostGpu> gpu_;
@@ -191,11 +191,12 @@ TEST_F(ResidentTarget, OneImageMayBeTheHosts) {
 }
 
 template <class Query>
-void ResidentTarget::expect_same_in_buffer(const Query& asked, std::size_t words_of_record) {
+void ResidentTarget::expect_same_in_buffer(const Query& asked, std::size_t words_of_record,
+                                           bool has_header) {
     Query query = asked;
     const OutputWords own = own_words(query, words_of_record);
     ASSERT_GT(own.output.size(), 8 + 10 * words_of_record);
-    const HostBuffer buffer(gpu(), own.bytes);
+    const HostBuffer buffer(gpu(), own.bytes, has_header);
     query.target = &buffer.target();
     Batch batch;
     const auto handle = batch.add(query);
@@ -215,13 +216,22 @@ void ResidentTarget::expect_same_in_buffer(const Query& asked, std::size_t words
             buffer.use(commands);
         });
     EXPECT_TRUE(results[handle].status.ok()) << results[handle].status.text();
-    EXPECT_EQ(gpu().read(header.buffer, header.offset, sizeof(HeaderData), state), own.header);
-    // Exactly the range is written, as far as there are records.
+    if (has_header) {
+        EXPECT_EQ(header.buffer, buffer.target().buffer);
+        EXPECT_EQ(header.offset, *buffer.target().header_offset);
+    } else {
+        EXPECT_EQ(gpu().read(header.buffer, header.offset, sizeof(HeaderData), state), own.header);
+    }
+    // Exactly the range is written, as far as there are records, and the header.
     const std::vector<std::uint32_t> words = buffer.words();
     const std::size_t first = buffer.target().offset / sizeof(std::uint32_t);
     std::vector<std::uint32_t> expected(words.size(), HostBuffer::pattern);
     std::copy(own.output.begin(), own.output.end(),
               expected.begin() + static_cast<std::ptrdiff_t>(first));
+    if (has_header) {
+        std::copy(own.header.begin(), own.header.end(),
+                  expected.begin() + static_cast<std::ptrdiff_t>(header.offset / 4));
+    }
     EXPECT_EQ(words, expected);
 }
 
@@ -235,10 +245,12 @@ TEST_F(ResidentTarget, RecordsAndSamplesEqualThoseInTheOwnBuffer) {
     IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
     IntersectionQuery edges = pair.intersection(IntersectionKind::boundary_volume);
     depths.on_device = contacts.on_device = overlap.on_device = edges.on_device = true;
-    expect_same_in_buffer(depths, sizeof(PointData) / 4);
-    expect_same_in_buffer(contacts, sizeof(PointData) / 4);
-    expect_same_in_buffer(overlap, sizeof(IntersectionSampleData) / 4);
-    expect_same_in_buffer(edges, sizeof(IntersectionSampleData) / 4);
+    for (const bool has_header : {false, true}) {
+        expect_same_in_buffer(depths, sizeof(PointData) / 4, has_header);
+        expect_same_in_buffer(contacts, sizeof(PointData) / 4, has_header);
+        expect_same_in_buffer(overlap, sizeof(IntersectionSampleData) / 4, has_header);
+        expect_same_in_buffer(edges, sizeof(IntersectionSampleData) / 4, has_header);
+    }
 }
 
 TEST_F(ResidentTarget, WhatIsWrittenOutlivesTheBatch) {

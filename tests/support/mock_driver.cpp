@@ -134,10 +134,13 @@ VkImageView MockDriver::make_view(VkImage image) {
     return view;
 }
 
-VkBuffer MockDriver::make_buffer() {
+VkBuffer MockDriver::make_buffer(std::uint64_t bytes) {
     const UnwatchedAllocations here;
     const auto buffer = state_->make<VkBuffer>(the_host, state_->device);
-    state_->objects[number(buffer)].bound = true;
+    MockObject& object = state_->objects[number(buffer)];
+    object.bound = true;
+    object.bytes = bytes;
+    object.written = bytes > 0;
     return buffer;
 }
 

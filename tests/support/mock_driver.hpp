@@ -64,7 +64,8 @@ public:
     [[nodiscard]] VkImage make_image();
     /// A view of the host's of such an image.
     [[nodiscard]] VkImageView make_view(VkImage image);
-    [[nodiscard]] VkBuffer make_buffer();
+    /// `bytes`: that copies may write.
+    [[nodiscard]] VkBuffer make_buffer(std::uint64_t bytes = 0);
     /// Sets the timeline semaphore support that host() reports.
     void enable_timeline_semaphores(bool enabled = true);
     [[nodiscard]] VkSemaphore make_timeline_semaphore(std::uint64_t value);

@@ -214,6 +214,9 @@ void MockDriver::State::write_counts(const std::set<Number>& used) {
         }
         const auto [first, count] = range->second;
         const std::span words = words_of(set.needs.at(finding->binding));
+        if (words.empty()) {
+            continue;
+        }
         const bool is_known = std::any_of(all.begin(), all.end(), [&](const auto& other) {
             return other.data() == words.data() + first;
         });
@@ -230,7 +233,8 @@ void MockDriver::State::write_counts(const std::set<Number>& used) {
 
 std::span<std::uint32_t> MockDriver::State::words_of(Number buffer) {
     const auto found = objects.find(buffer);
-    if (found == objects.end() || !found->second.bound) {
+    // Objects of the host have memory that the driver does not see.
+    if (found == objects.end() || !found->second.bound || !found->second.needs.contains(0)) {
         return {};
     }
     MockObject& memory = objects[found->second.needs.at(0)];

@@ -167,9 +167,14 @@ protected:
     }
 
     void measure_layout() {
-        measure("`field_grid`", [&] {
+        measure("`field_grid`, `target_size`", [&] {
             const auto& field = std::get<DistanceFieldQuery>(batch_.queries()[field_.index]);
             EXPECT_TRUE(context_->field_grid(field).has_value());
+            EXPECT_TRUE(context_->target_size(PenetrationQuery{field.b, field.b, 0.1}).has_value());
+            EXPECT_TRUE(
+                context_->target_size(ContactQuery{field.b, field.b, 0.1, 0.1}).has_value());
+            EXPECT_TRUE(
+                context_->target_size(IntersectionQuery{field.b, field.b, 0.1}).has_value());
         });
         measure("`layout_on_device`",
                 [&] { EXPECT_TRUE(context_->layout_on_device(batch_, field_).has_value()); });

@@ -1,6 +1,7 @@
 // Searches for pairs in parts, for commands and shaders of a host.
 
 #include <tests/query/device_pair_parts.hpp>
+#include <tests/query/host_targets.hpp>
 #include <tests/support/host_frames.hpp>
 
 #include <cmath>
@@ -76,6 +77,35 @@ TEST_F(DevicePairPartsForHosts, LeaveTheSamePenetrationsOnTheDevice) {
         for (std::size_t i = 0; i < expected.points.size(); ++i) {
             ASSERT_TRUE(are_alike(found.points[i], expected.points[i])) << i;
         }
+    }
+}
+
+/// Later parts wait for earlier ones, and the host's uses for all.
+TEST_F(DevicePairPartsForHosts, LeaveThemInBuffersOfTheHost) {
+    ASSERT_NO_FATAL_FAILURE(make_small(little));
+    make_crowd(device_pair_parts_for_hosts_seed + 1, 140, 3.0);
+    const PenetrationQuery query{
+        .tolerance = 0.05, .points = PenetrationPoints::vertices, .on_device = true};
+    auto [whole, in_parts, dispatches] = tables_of(query);
+    ASSERT_TRUE(small_world().update(whole).ok());
+    const PairContents expected = read(*whole.on_device());
+    const HostBuffer pairs(gpu(), expected.pairs.size() * sizeof(PairData), true);
+    const HostBuffer points(gpu(), (expected.points.size() - 1) * sizeof(PointData), true);
+    PairTarget target{pairs.target(), points.target()};
+    // As read() leaves them.
+    target.pairs.before = target.points.before = read_by_shaders;
+    target.pairs.after = target.points.after = read_by_shaders;
+    const Status status = small_world().update(in_parts, {.target = &target});
+    EXPECT_EQ(status.code(), StatusCode::overflow) << status.text();
+    EXPECT_GE(calls_of_parts.dispatches / dispatches, 2);
+    PairsOnDevice left = *in_parts.on_device();
+    left.state = {read_by_shaders.stages, read_by_shaders.access, VK_IMAGE_LAYOUT_UNDEFINED, 0};
+    const PairContents found = read(left);
+    EXPECT_EQ(found.pair_header.overflow + found.point_header.overflow, 2U);
+    ASSERT_EQ(found.pairs.size(), expected.pairs.size());
+    ASSERT_EQ(found.points.size() + 1, expected.points.size());
+    for (std::size_t i = 0; i < found.points.size(); ++i) {
+        ASSERT_EQ(std::memcmp(&found.points[i], &expected.points[i], sizeof(PointData)), 0) << i;
     }
 }
 

@@ -253,6 +253,14 @@ struct PosedQueries {
         overlap = batch.add(common);
     }
 
+    template <class Query>
+    [[nodiscard]] std::uint64_t size(const Context& context, QueryHandle<Query> query) const {
+        const Expected<std::uint64_t> bytes =
+            context.target_size(std::get<Query>(batch.queries()[query.index]));
+        EXPECT_TRUE(bytes.has_value()) << bytes.error().text();
+        return *bytes;
+    }
+
     Batch batch;
     QueryHandle<PenetrationQuery> depths;
     QueryHandle<PenetrationQuery> vertices;
@@ -272,6 +280,9 @@ TEST_F(ResidentLayout, SizesStayWithinTheBoundOfAllPoses) {
     };
     const std::array<PointsOnDevice, 3> bounds{of_apart(apart.depths), of_apart(apart.vertices),
                                                of_apart(apart.contacts)};
+    const std::array<std::uint64_t, 3> sizes{apart.size(made(), apart.depths),
+                                             apart.size(made(), apart.vertices),
+                                             apart.size(made(), apart.contacts)};
     std::array<std::uint32_t, 3> greatest{};
     for (int i = 0; i < 30; ++i) {
         // First wholly inside.
@@ -285,12 +296,13 @@ TEST_F(ResidentLayout, SizesStayWithinTheBoundOfAllPoses) {
                                                     *made().on_device(*ticket, asked.vertices),
                                                     *made().on_device(*ticket, asked.contacts)};
         for (std::size_t kind = 0; kind < records.size(); ++kind) {
-            EXPECT_EQ(records[kind].max_size, bounds[kind].max_size) << kind;
-            EXPECT_LE(records[kind].size, bounds[kind].max_size) << kind;
+            EXPECT_LE(records[kind].size, sizes[kind]) << kind;
         }
         const SamplesOnDevice samples = *made().on_device(*ticket, asked.overlap);
         const double side = diameter(rings) / samples.cell + 1.0;
         EXPECT_LE(samples.capacity, side * side);
+        EXPECT_EQ(samples.size, asked.size(made(), asked.overlap));
+        EXPECT_EQ(sizes[2], asked.size(made(), asked.contacts));
         Results results;
         ASSERT_TRUE(made().collect(*ticket, results).ok());
         const std::array<std::uint32_t, 3> found{results[asked.depths].count,
@@ -304,6 +316,26 @@ TEST_F(ResidentLayout, SizesStayWithinTheBoundOfAllPoses) {
     EXPECT_GT(greatest[0], bounds[0].capacity * 6 / 10);
     EXPECT_EQ(greatest[1], bounds[1].capacity);
     EXPECT_GT(greatest[2], bounds[2].capacity * 6 / 10);
+}
+
+TEST_F(ResidentLayout, TellsSizesOfWhatIsRefused) {
+    const ShapeHandle shape = *made().add_shape(rectangle({-1, -1}, {1, 1}));
+    PenetrationQuery depths{{shape, {}}, {shape, {}}, 0.1};
+    IntersectionQuery overlap{{shape, {}}, {shape, {}}, 0.1};
+    for (const IntersectionKind kind :
+         {IntersectionKind::boundary_boundary, IntersectionKind::boundary_volume}) {
+        overlap.kind = kind;
+        EXPECT_GT(*made().target_size(overlap),
+                  sizeof(IntersectionSummaryData) + 20 * sizeof(IntersectionSampleData));
+    }
+    overlap.samples_on_device = false;
+    EXPECT_EQ(*made().target_size(overlap), sizeof(IntersectionSummaryData));
+    depths.tolerance = overlap.tolerance = -1.0;
+    EXPECT_EQ(made().target_size(depths).error().code(), StatusCode::invalid_query);
+    EXPECT_EQ(made().target_size(overlap).error().code(), StatusCode::invalid_query);
+    depths.tolerance = 0.1;
+    depths.a.shape = {};
+    EXPECT_EQ(made().target_size(depths).error().code(), StatusCode::unknown_shape);
 }
 
 TEST_F(ResidentLayout, IsRefusedByName) {

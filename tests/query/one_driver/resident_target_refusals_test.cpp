@@ -24,7 +24,9 @@ protected:
         image_.view = made.view;
         buffer_.size = 1 << 16;
         buffer_.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-        buffer_.buffer = gpu_->make_buffer(2 * buffer_.size, buffer_.usage).buffer;
+        buffer_.buffer =
+            gpu_->make_buffer(2 * buffer_.size, buffer_.usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT)
+                .buffer;
         shape_ = *context().add_shape(regular(40));
     }
     void TearDown() override {
@@ -149,6 +151,20 @@ TEST_F(TargetRefusals, OfBuffers) {
     });
     refuse_buffer("accesses before", [](auto& buffer) { buffer.before.stages = 0; });
 
+    refuse_buffer("0x20, which lacks VK_BUFFER_USAGE_TRANSFER_DST_BIT",
+                  [](auto& buffer) { buffer.header_offset = buffer.size; });
+    const auto with_header = [](std::uint64_t offset) {
+        return [offset](BufferTarget& buffer) {
+            buffer.usage |= VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+            buffer.offset = 4096;
+            buffer.header_offset = offset;
+        };
+    };
+    refuse_buffer("header at the offset 2, which is no multiple of 4", with_header(2));
+    refuse_buffer("is no multiple of 4 that has bytes behind it", with_header(UINT64_MAX - 3));
+    refuse_buffer("within the range that is written, from 4096 on", with_header(4028));
+    refuse_buffer("within the range", with_header(4096 + buffer_.size - 4));
+
     BufferTarget small = buffer_;
     small.size = 100;
     ContactQuery contacts{query.a, query.b, query.tolerance, 0.02};
@@ -216,6 +232,20 @@ TEST_F(TargetRefusals, OnePlaceTakesOneResult) {
     EXPECT_TRUE(results[in_high].status.ok()) << results[in_high].status.text();
     expect(results[field_again].status, "is written by query 1 of the same batch");
     expect(results[in_both].status, "is written by query 0 of the same batch");
+
+    // Headers are places, too.
+    low.usage = high.usage = buffer_.usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    low.size = 16384;
+    low.header_offset = 32768;
+    high.header_offset = 32768 + sizeof(HeaderData) - 4;
+    Batch headers;
+    first.target = &low;
+    const auto below = headers.add(first);
+    first.target = &high;
+    const auto above = headers.add(first);
+    ASSERT_TRUE(context().run(headers, results).ok());
+    EXPECT_TRUE(results[below].status.ok()) << results[below].status.text();
+    expect(results[above].status, "is written by query 0 of the same batch");
 }
 
 TEST_F(TargetRefusals, ATargetIsIgnoredIfNothingStays) {
