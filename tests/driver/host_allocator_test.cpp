@@ -167,7 +167,8 @@ std::vector<Mistake> all_mistakes() {
     };
 }
 
-/// Makes one answer of the allocator in a step wrong; returns whether there was such an answer.
+/// Makes one answer of the allocator in a step wrong, and the first answer when the step is tried
+/// again; returns whether there was such an answer.
 bool try_mistake(Technique technique, const Mistake& mistake, World::Step step, std::size_t number,
                  const std::vector<double>& expected) {
     Hosted hosted(technique);
@@ -184,15 +185,20 @@ bool try_mistake(Technique technique, const Mistake& mistake, World::Step step, 
         name = request.name;
         return mistake.make(request, given);
     };
-    const Status status = hosted.world.take(step);
-    if (!made) {
-        hosted.expect_to_leave_nothing();
-        return false;
-    }
-    EXPECT_EQ(status.code(), mistake.code) << status.text();
-    for (const std::string& words :
-         {std::string(mistake.words), name, std::string("HostDevice::memory.allocate")}) {
-        EXPECT_NE(status.message().find(words), std::string::npos) << status.text();
+    for (const bool is_again : {false, true}) {
+        made = false;
+        left = is_again ? 0 : number;
+        const Status status = hosted.world.take(step);
+        if (!made) {
+            EXPECT_FALSE(is_again) << "what was refused is not asked for again";
+            hosted.expect_to_leave_nothing();
+            return false;
+        }
+        EXPECT_EQ(status.code(), mistake.code) << status.text();
+        for (const std::string& words :
+             {std::string(mistake.words), name, std::string("HostDevice::memory.allocate")}) {
+            EXPECT_NE(status.message().find(words), std::string::npos) << status.text();
+        }
     }
     if (hosted.world.has_context()) {
         const Status again = hosted.world.take(step);
