@@ -59,10 +59,9 @@ void ComputeShader::dispatch_indirect(VkCommandBuffer commands, VkBuffer argumen
     functions_->vkCmdDispatchIndirect(commands, arguments, offset);
 }
 
-void ComputeShader::push_bytes(VkCommandBuffer commands, const void* bytes,
-                               std::size_t count) const {
+void ComputeShader::push_all(VkCommandBuffer commands, const PushBytes& bytes) const {
     functions_->vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                   static_cast<std::uint32_t>(count), bytes);
+                                   static_cast<std::uint32_t>(bytes.size()), bytes.data());
 }
 
 }  // namespace nearfield::passes

@@ -10,8 +10,10 @@
 #include <shaders/push.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -42,7 +44,9 @@ public:
     template <class Push>
     void push(VkCommandBuffer commands, const Push& push) const {
         static_assert(sizeof(Push) <= max_push_bytes);
-        push_bytes(commands, &push, sizeof(Push));
+        PushBytes bytes{};
+        std::memcpy(bytes.data(), &push, sizeof(Push));
+        push_all(commands, bytes);
     }
 
     /// Dispatches one thread per element for the elements from `begin` to `end`, in as many
@@ -82,7 +86,9 @@ public:
     void dispatch_indirect(VkCommandBuffer commands, VkBuffer arguments, VkDeviceSize offset) const;
 
 private:
-    void push_bytes(VkCommandBuffer commands, const void* bytes, std::size_t count) const;
+    /// The whole range of the layout that all share: layers warn of bytes that were never set.
+    using PushBytes = std::array<std::byte, max_push_bytes>;
+    void push_all(VkCommandBuffer commands, const PushBytes& bytes) const;
 
     const gpu::Functions* functions_;
     VkPipelineLayout layout_;
