@@ -146,8 +146,9 @@ ExportRecords::ExportRecords(const gpu::Device& device, const graph::ComputeLayo
       records(graph.import_buffer({"records"}, exported_buffer)) {
     graph::Handle counted = header;
     graph::Handle output = records;
-    // The first pass writes no record. It waits for a buffer of the host all the same: its shader
-    // has the binding, and to validation layers that is an access.
+    // The first pass writes no record, and the last one only reads what was counted. Both are
+    // declared as writes: they share a shader that writes either, and to validation layers that is
+    // an access.
     add_pass(graph, "count records", shader,
              {{0, shapes}, {1, scratch}, {3, counted, write}, {2, output, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
@@ -159,7 +160,7 @@ ExportRecords::ExportRecords(const gpu::Device& device, const graph::ComputeLayo
                  dispatch_records(of, commands, input, shaders::place_step, 1);
              });
     add_pass(graph, "write records", shader,
-             {{0, shapes}, {1, scratch}, {3, counted}, {2, output, write}},
+             {{0, shapes}, {1, scratch}, {3, counted, write}, {2, output, write}},
              [](const ComputeShader& of, VkCommandBuffer commands, const Input& input) {
                  dispatch_records(of, commands, input, shaders::write_step,
                                   shaders::points_per_block * input.blocks);
@@ -177,7 +178,7 @@ ExportSamples::ExportSamples(const gpu::Device& device, const graph::ComputeLayo
       samples(graph.import_buffer({"resident samples"}, exported_buffer)) {
     graph::Handle counted = header;
     graph::Handle output = samples;
-    // The first pass writes no sample; see ExportRecords.
+    // The first pass writes no sample, and the last one no counts; see ExportRecords.
     add_pass(graph, "count samples", shader,
              {{0, summaries, read, 0, with_summaries},
               {0, masks, read, 0, with_masks},
@@ -191,7 +192,7 @@ ExportSamples::ExportSamples(const gpu::Device& device, const graph::ComputeLayo
                                input.samples->tile_count, 1);
              });
     add_pass(graph, "write samples", shader,
-             {{0, masks}, {1, tables}, {3, counted}, {2, output, write}},
+             {{0, masks}, {1, tables}, {3, counted, write}, {2, output, write}},
              [](const ComputeShader& of, const graph::PassCommands& commands, const Input& input) {
                  dispatch_rows(of, commands, input, 0, shaders::write_step);
              });

@@ -28,6 +28,27 @@ if(NOT drivers)
     set(drivers ${lavapipe} ${swiftshader})
 endif()
 
+# Chromium, which Debian's SwiftShader comes with, has a newer validation layer than Debian. It sees
+# hazards between dispatches and between submissions, so ctest runs all tests under it where it is
+# there.
+find_file(newer_layer libVkLayer_khronos_validation.so PATHS /usr/lib/chromium NO_DEFAULT_PATH NO_CACHE)
+if(newer_layer)
+    set(layers ${PROJECT_BINARY_DIR}/layers)
+    file(CONFIGURE OUTPUT ${layers}/validation.json CONTENT [=[
+{"file_format_version": "1.2.0",
+ "layer": {"name": "VK_LAYER_KHRONOS_validation", "type": "GLOBAL", "library_path": "@newer_layer@",
+  "api_version": "1.4.0", "implementation_version": "1", "description": "the newer validation layer",
+  "instance_extensions": [{"name": "VK_EXT_debug_utils", "spec_version": "2"},
+                          {"name": "VK_EXT_validation_features", "spec_version": "6"}]}}
+]=] @ONLY)
+    file(CONFIGURE OUTPUT ${layers}/environment.cmake CONTENT [=[
+set(ENV{VK_LAYER_PATH} "@layers@")
+set(ENV{VK_LAYER_SYNCVAL_SHADER_ACCESSES_HEURISTIC} 1)  # which buffers a dispatch accesses
+set(ENV{VK_LAYER_ENABLE_MESSAGE_LIMIT} 0)               # every message, not the first ten of a kind
+]=] @ONLY)
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${layers}/environment.cmake)
+endif()
+
 set(names "")
 set(nearfield_manifests "")
 foreach(driver IN LISTS drivers)
