@@ -107,9 +107,6 @@ void PairSearch::declare_boxes() {
     graph::Handle scratch = boxes.scratch;
     add(boxes, "pair boxes", finding_->instances.boxes,
         {{0, boxes.shapes}, {2, boxes.instances}, {1, scratch, write}}, no_stage, no_stage);
-    // They are made of boxes that other workgroups of the pass before have written. That is the one
-    // wait of a table, but for those of the host's reads, whose absence no validation layer
-    // reports.
     add_pass(boxes.graph, "pair levels", finding_->instances.levels, {{1, scratch, write}},
              [this](const ComputeShader& levels, VkCommandBuffer commands, const Input& input) {
                  levels.push(commands, push_of(input, no_stage));

@@ -30,9 +30,9 @@ class WorldRequest;
 /// Instances of shapes of one context, kept from frame to frame.
 ///
 /// A shape may be deformed (Context::update_shape) between any two calls; all its instances follow.
-/// Boxes over the edges of a shape and over all instances are made when a query first needs them
-/// and refitted when something changes. Removing a shape from the context removes its instances
-/// from all answers, for good.
+/// Boxes over a shape's edges and over all instances are made when a query needs them, and refitted
+/// when something changes; a rigid move keeps those of the shape. Removing a shape from the context
+/// removes its instances from all answers, for good.
 ///
 /// Threads: as for the context, which every member uses; a world and its context count as one
 /// object. Many poses, points, segments and pairs are divided among Settings::jobs. Results do not
