@@ -29,8 +29,8 @@ if(NOT drivers)
 endif()
 
 # Chromium, which Debian's SwiftShader comes with, has a newer validation layer than Debian. It sees
-# hazards between dispatches and between submissions, so ctest runs all tests under it where it is
-# there.
+# hazards between dispatches and between submissions, so ctest runs all tests but those of windows
+# under it where it is there.
 find_file(newer_layer libVkLayer_khronos_validation.so PATHS /usr/lib/chromium NO_DEFAULT_PATH NO_CACHE)
 if(newer_layer)
     set(layers ${PROJECT_BINARY_DIR}/layers)
