@@ -120,7 +120,8 @@ bool are_small(const Polygon& polygon) {
     for (std::uint32_t i = 0; i < samples; ++i) {
         const auto run = static_cast<std::uint32_t>(std::uint64_t{i} * runs / samples);
         Box box;
-        for (const Vector& vertex : polygon.vertices().subspan(fan_out * run, fan_out)) {
+        for (const Vector& vertex :
+             polygon.vertices().subspan(std::size_t{fan_out} * run, fan_out)) {
             box.extend(vertex);
         }
         sum += box.sizes().sum();
