@@ -128,18 +128,11 @@ HWY_INLINE void bound_run(const double* interleaved, EdgeBoxes::Group& group, st
         low_across = hn::Min(low_across, across);
         high_across = hn::Max(high_across, across);
     }
-    const double from = hn::GetLane(hn::MinOfLanes(tag, low_along));
-    const double to = hn::GetLane(hn::MaxOfLanes(tag, high_along));
-    const double right = hn::GetLane(hn::MinOfLanes(tag, low_across));
-    const double left = hn::GetLane(hn::MaxOfLanes(tag, high_across));
-    const double along = 0.5 * (from + to);
-    const double across = 0.5 * (right + left);
-    group.x[i] = along * along_x - across * along_y;
-    group.y[i] = along * along_y + across * along_x;
-    group.along_x[i] = along_x;
-    group.along_y[i] = along_y;
-    group.half_along[i] = 0.5 * (to - from);
-    group.half_across[i] = 0.5 * (left - right);
+    const double unit[] = {along_x, along_y};
+    group.set(i, unit, hn::GetLane(hn::MinOfLanes(tag, low_along)),
+              hn::GetLane(hn::MaxOfLanes(tag, high_along)),
+              hn::GetLane(hn::MinOfLanes(tag, low_across)),
+              hn::GetLane(hn::MaxOfLanes(tag, high_across)));
 }
 
 void BoundRuns(const double* interleaved, std::uint32_t first, std::uint32_t end,

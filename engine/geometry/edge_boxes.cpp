@@ -37,14 +37,8 @@ public:
             across * group.half_along[i] + along * group.half_across[i]);
     }
     void write(EdgeBoxes::Group& group, std::uint32_t i) const {
-        const double along = 0.5 * (low_along_ + high_along_);
-        const double across = 0.5 * (low_across_ + high_across_);
-        group.x[i] = along * along_x_ - across * along_y_;
-        group.y[i] = along * along_y_ + across * along_x_;
-        group.along_x[i] = along_x_;
-        group.along_y[i] = along_y_;
-        group.half_along[i] = 0.5 * (high_along_ - low_along_);
-        group.half_across[i] = 0.5 * (high_across_ - low_across_);
+        const double unit[] = {along_x_, along_y_};
+        group.set(i, unit, low_along_, high_along_, low_across_, high_across_);
     }
 
 private:

@@ -30,6 +30,19 @@ public:
         double along_y[fan_out];
         double half_along[fan_out];   ///< half the extent in its direction ...
         double half_across[fan_out];  ///< ... and across
+
+        /// Sets box i by a unit vector along it and by what it spans along and across that.
+        void set(std::uint32_t i, const double* unit, double low_along, double high_along,
+                 double low_across, double high_across) {
+            const double along = 0.5 * (low_along + high_along);
+            const double across = 0.5 * (low_across + high_across);
+            x[i] = along * unit[0] - across * unit[1];
+            y[i] = along * unit[1] + across * unit[0];
+            along_x[i] = unit[0];
+            along_y[i] = unit[1];
+            half_along[i] = 0.5 * (high_along - low_along);
+            half_across[i] = 0.5 * (high_across - low_across);
+        }
     };
 
     /// Makes those of a polygon. Reuses memory.
@@ -42,7 +55,6 @@ public:
     [[nodiscard]] const Group& group(std::uint32_t level, std::uint32_t number) const {
         return groups_[first_groups_[level] + number];
     }
-    [[nodiscard]] std::size_t bytes() const { return groups_.capacity() * sizeof(Group); }
 
 private:
     std::vector<Group> groups_;
@@ -53,8 +65,8 @@ private:
 /// were rounded.
 [[nodiscard]] double box_allowance(const TransformedPolygon& placed);
 
-/// What edge boxes are asked for: the bounding box, or edges.
-enum class BoxSearch : std::uint8_t { extent, edges };
+/// What edge boxes are asked for: the bounding box, edges, or many vertices at once.
+enum class BoxSearch : std::uint8_t { extent, edges, vertices };
 
 /// The boxes of one polygon, made when the same is asked for twice: for rings that change from one
 /// question to the next they would take longer to make than they save.
@@ -76,13 +88,12 @@ public:
     [[nodiscard]] const EdgeBoxes* find(const Polygon& polygon, BoxSearch search) const;
     /// The rings have changed.
     void forget() noexcept;
-    [[nodiscard]] std::size_t bytes() const { return boxes_.bytes(); }
 
 private:
     enum class State : std::uint8_t { unknown, made, useless };
 
     mutable std::atomic<State> state_ = State::unknown;
-    mutable std::array<std::atomic<bool>, 2> is_asked_ = {};  // by search
+    mutable std::array<std::atomic<bool>, 3> is_asked_ = {};  // by search
     mutable EdgeBoxes boxes_;
     mutable std::mutex making_;
 };

@@ -9,9 +9,9 @@
 
 namespace nearfield::narrowphase {
 
-/// Counts the vertices of one shape inside another, and lists those of them that may be the
-/// deepest, by the boxes of the first: which side a box lies on that no edge of the other comes
-/// near, and how deep its vertices can be, takes a look at one of them. Reuses its memory.
+/// Counts the vertices of one shape inside another, and lists those that may be the deepest. A box
+/// of the first that no edge of the other comes near lies on one side as a whole, so one of its
+/// vertices decides for all. Reuses its memory.
 class VerticesInside {
 public:
     /// Lists vertices of A in the box of B: in order, all that lie within `touching` of B's

@@ -99,7 +99,7 @@ std::uint32_t PenetrationSolver::find_vertices_inside(const TransformedEdges& a,
                                                       const TransformedEdges& b, bool summary_only,
                                                       double touching) {
     const bool has_boxes = summary_only && !is_small(a) && !is_small(b) && a.tree().is_in_order() &&
-                           a.placed.polygon().find_boxes(geometry::BoxSearch::edges) != nullptr;
+                           a.placed.polygon().find_boxes(geometry::BoxSearch::vertices) != nullptr;
     if (has_boxes) {
         vertices_.find(a, b, touching, inside_);
         boundary_.set(b);
